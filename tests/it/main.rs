@@ -18,6 +18,7 @@ mod conformance;
 mod contact_geometry;
 mod conversions;
 mod cost;
+mod curve_files;
 mod designs;
 mod displaced_starts;
 mod docs;

@@ -175,3 +175,40 @@ fn what_cannot_stand_beside_is_refused_with_a_remedy() {
         "`Kraft` may be any of pad.force, mount.force; say which, as in `drop.csv:pad.force`";
     assert!(found.contains(told), "{found}");
 }
+
+#[test]
+fn what_was_written_is_read_back_with_its_signs() {
+    let (folder, [_, drop, ..]) = folder();
+    let own = folder.path().join("results");
+    let done = run(&["run", &drop, "--method", "exact", "--out", own.to_str().unwrap()]);
+    assert_eq!(code(&done), 0, "{}", err(&done));
+    let text = fs::read_to_string(own.join("exact.csv")).unwrap();
+    let at = text
+        .lines()
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|own| own.starts_with("head.acceleration"));
+    let column = text
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').nth(at.unwrap()).unwrap().parse::<f64>().unwrap());
+    // In the fall nothing acts on it, and the spring pushes it away from the support.
+    assert!(column.clone().all(|own| own > -1e-9) && column.fold(0.0, f64::max) > 300.0);
+    // The time of the file is that of the run, 0 s at the first touch in figures: sqrt(2 h/g0) later.
+    let touch = (2.0 / GRAVITY).sqrt();
+    let measured = format!("{}:head.acceleration", own.join("exact.csv").to_str().unwrap());
+    let moved = format!("-{touch} s");
+    let all =
+        ["run", &drop, "--method", "exact", "--measured", &measured, "--shift", &moved, "--json"];
+    let own = json(&all)["runs"][0]["measured"][0].clone();
+    let peak = number(&own["measured_peak"]["value"]);
+    assert!(peak > 300.0, "{own}");
+    assert!(number(&own["rms"]).abs() < 1e-3 * peak, "{own}");
+    let refused = run(&["run", &drop, "--measured", &measured, "--shift", "-2"]);
+    assert!(
+        code(&refused) == 2 && words(&err(&refused)).contains("write \"-2 ms\""),
+        "{}",
+        err(&refused)
+    );
+}

@@ -54,7 +54,7 @@ pub use report::warning::{Beyond, Harder, Missed, Through, Warning};
 pub use report::{ContactReport, MeasureReport, RunReport, SolverReport, SystemReport};
 pub use report::{Difference, differences};
 pub use run::{choice, reported_measures, solve_assembly, undefined_measures};
-pub use scatter::{Band, Chance, ScatterReport, ScatterSource};
+pub use scatter::{Band, Chance, Odds, ScatterReport, ScatterSource};
 pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, threshold_at};
 pub use solve::{Solve, solve_partial};

@@ -1,5 +1,7 @@
 //! What scatter of the numbers of a scene makes of its measures: bands, and probabilities to keep limits.
 
+use std::slice;
+
 use serde::Serialize;
 
 use crate::{
@@ -60,12 +62,19 @@ pub struct Band {
 pub struct Chance {
     /// The limit.
     pub limit: Limit,
-    /// Designs that keep it.
-    pub kept: usize,
+    /// Designs that keep it, and that exceed it.
+    pub odds: Odds,
     /// Designs that keep it by something that is pressed further than is known of it.
     pub beyond: usize,
     /// Designs that keep it in the impact, outside of which there is a harder blow.
     pub outside: usize,
+}
+
+/// How many designs keep what is asked of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Odds {
+    /// Designs that keep it.
+    pub kept: usize,
     /// Designs that exceed it.
     pub exceeded: usize,
     /// Designs in all; what is neither kept nor exceeded is not known.
@@ -85,6 +94,8 @@ pub struct ScatterReport {
     pub bands: Vec<Band>,
     /// The limits, in the order of the run.
     pub limits: Vec<Chance>,
+    /// How often all of them are kept at once; `None` of fewer than two.
+    pub all_limits: Option<Odds>,
     /// How many of the designs were instantiated of one compiled form.
     pub instantiated: usize,
     /// How many could not be solved.
@@ -145,6 +156,25 @@ impl Chance {
         let of = |count: usize, reason: Reason| (count > 0).then_some(reason);
         of(self.beyond, Reason::Beyond).or(of(self.outside, Reason::Outside))
     }
+}
+
+impl Odds {
+    /// Those of designs of each of which one thing or more is judged: all must be kept, and one exceeded is enough.
+    fn of(judged: &[Vec<Judgement>]) -> Self {
+        let designs = judged.first().map_or(0, Vec::len);
+        let count = |is: &dyn Fn(usize) -> bool| (0..designs).filter(|at| is(*at)).count();
+        let has = |at: usize, own: Judgement| judged.iter().filter(move |of| of[at] == own).count();
+        Self {
+            kept: count(&|at| has(at, Judgement::Pass) == judged.len()),
+            exceeded: count(&|at| has(at, Judgement::Fail) > 0),
+            designs,
+        }
+    }
+
+    /// Designs of which it is not known.
+    pub fn not_known(&self) -> usize {
+        self.designs - self.kept - self.exceeded
+    }
 
     /// The part of the designs that keeps the limit, from 0 to 1.
     pub fn share(&self) -> f64 {
@@ -172,21 +202,23 @@ impl ScatterReport {
     pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
         let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
         let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
-        let chance = |(column, limit): &(usize, Limit)| {
+        let judged = |(column, limit): &(usize, Limit)| -> Vec<Judgement> {
             let doubts = sweep.doubts(limit);
             let judge = |(design, value): (usize, f64)| {
                 let grows = sweep.cut.contains(&(design, *column));
                 limit.bound.judge(value, None, grows).doubted(doubts[design])
             };
-            let judged: Vec<Judgement> = sweep.column(*column).enumerate().map(judge).collect();
-            let count = |which| judged.iter().filter(|own| **own == which).count();
+            sweep.column(*column).enumerate().map(judge).collect()
+        };
+        let all: Vec<Vec<Judgement>> = sweep.limits.iter().map(judged).collect();
+        let chance = |((_, limit), judged): (&(usize, Limit), &Vec<Judgement>)| {
+            let count =
+                |reason| judged.iter().filter(|own| **own == Judgement::Undecided(reason)).count();
             Chance {
                 limit: limit.clone(),
-                kept: count(Judgement::Pass),
-                beyond: count(Judgement::Undecided(Reason::Beyond)),
-                outside: count(Judgement::Undecided(Reason::Outside)),
-                exceeded: count(Judgement::Fail),
-                designs: judged.len(),
+                odds: Odds::of(slice::from_ref(judged)),
+                beyond: count(Reason::Beyond),
+                outside: count(Reason::Outside),
             }
         };
         let unsolved = || sweep.gaps.iter().filter(|gap| gap.column.is_none());
@@ -196,7 +228,8 @@ impl ScatterReport {
             designs: sweep.points(),
             seed,
             bands: bands.collect(),
-            limits: sweep.limits.iter().map(chance).collect(),
+            limits: sweep.limits.iter().zip(&all).map(chance).collect(),
+            all_limits: (all.len() > 1).then(|| Odds::of(&all)),
             instantiated: sweep.instantiated,
             unsolved: unsolved().count(),
             why: unsolved().next().map(why),
@@ -217,7 +250,6 @@ impl ScatterReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Bound;
 
     #[test]
     fn a_band_has_the_mean_the_deviation_and_the_quantiles_of_its_sample() {
@@ -242,12 +274,17 @@ mod tests {
     }
 
     #[test]
+    fn all_limits_are_kept_where_each_is_and_exceeded_where_one_is() {
+        let [yes, no, open] =
+            [Judgement::Pass, Judgement::Fail, Judgement::Undecided(Reason::Beyond)];
+        let own = Odds::of(&[vec![yes, yes, no, open, open], vec![yes, no, no, yes, no]]);
+        assert_eq!(own, Odds { kept: 1, exceeded: 3, designs: 5 });
+        assert_eq!(own.not_known(), 1);
+    }
+
+    #[test]
     fn the_range_of_a_probability_is_wilsons_and_is_widened_by_what_is_not_known() {
-        let limit = Limit::new("pad.peak-force", Bound::Max(1.0));
-        let of = |kept: usize, exceeded: usize| {
-            Chance { limit: limit.clone(), kept, beyond: 0, outside: 0, exceeded, designs: 100 }
-                .range()
-        };
+        let of = |kept: usize, exceeded: usize| Odds { kept, exceeded, designs: 100 }.range();
         // Brown, Cai, DasGupta, Statistical Science 16 (2001) 101–133: 0 of n ends at z²/(n + z²).
         let square = WITHIN * WITHIN;
         let (low, high) = of(100, 0);

@@ -166,6 +166,16 @@ pub(crate) fn signed_time(text: &str) -> Result<f64, String> {
     crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
 }
 
+/// A difference of times \[s\] with its unit: a bare one would be seconds, which a measured impact never is moved by.
+pub(crate) fn shift(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if number != 0.0 => {
+            Err(format!("`{number}` has no unit: write \"{number} ms\" or \"{number} s\""))
+        }
+        _ => signed_time(text),
+    }
+}
+
 /// Units of work: a whole number, or one such as 1e9.
 pub(crate) fn budget(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e18;

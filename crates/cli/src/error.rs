@@ -109,8 +109,8 @@ pub(crate) enum CliError {
     #[error("`--vary`: {0}")]
     Variation(#[from] VariationFault),
     /// A number that a scene does not have, or not alone.
-    #[error("`--vary`: {0}")]
-    Tunable(#[from] TunableFault),
+    #[error("`{flag}`: {fault}")]
+    Tunable { flag: &'static str, fault: TunableFault },
     /// A number that is to be derived by, and that a scene does not have, or not alone.
     #[error("`--gradient`: {0}")]
     Gradient(TunableFault),
@@ -255,7 +255,7 @@ impl CliError {
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
-            Self::Tunable(fault) | Self::Gradient(fault) => fault.help(),
+            Self::Tunable { fault, .. } | Self::Gradient(fault) => fault.help(),
             Self::Run(
                 RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
             ) => suggestion(key, "measures", known),

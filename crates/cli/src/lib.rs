@@ -15,6 +15,7 @@ mod origin;
 mod output;
 mod part;
 mod progress;
+mod said;
 mod sketch;
 mod terminal;
 mod text;

@@ -9,10 +9,11 @@ pub use crate::sections::RunSettings;
 use crate::{
     check::{
         constant_area::constant_areas,
+        elastic::elastic_pads,
         network_faults::{note_errors, note_held, note_warnings},
         review::{outlasted, review, upward, weightless},
     },
-    diagnostics::{Checked, Diagnostics, Faults, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     kinds::{Example, model_words},
     models::{ModelReader, notes::ModelNote},
     quantities::values::{NamedValue, Overrides},
@@ -65,6 +66,8 @@ pub struct Scene {
     pub measures: Vec<MeasureWish>,
     /// What the measures may be.
     pub limits: Vec<Limit>,
+    /// What is odd about its text.
+    pub warnings: Vec<Diagnostic>,
     /// What is to be said about its models, besides warnings.
     pub notes: Vec<ModelNote>,
     /// Its numbers with scatter, which are read as their means.
@@ -89,8 +92,9 @@ impl Scene {
 
     /// Adds limits to its own, and to its notes what is to be said about elements that they are on.
     pub fn add_limits(&mut self, limits: impl IntoIterator<Item = Limit>) {
-        self.limits.extend(limits);
-        for note in constant_areas(&self.network, &self.limits) {
+        Limit::add(&mut self.limits, limits);
+        let elastic = elastic_pads(&self.network, &self.limits, &self.measures);
+        for note in constant_areas(&self.network, &self.limits).into_iter().chain(elastic) {
             if !self.notes.contains(&note) {
                 self.notes.push(note);
             }
@@ -190,7 +194,9 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    checked(|faults| read_scene(text, options, faults))
+    let mut read = checked(|faults| read_scene(text, options, faults))?;
+    read.value.warnings.clone_from(&read.warnings.list);
+    Ok(read)
 }
 
 /// Reads a scene from the bytes of a file.
@@ -235,8 +241,7 @@ pub fn read_network(
     options: &ReadOptions<'_>,
 ) -> Result<Checked<Network>, Diagnostics> {
     checked(|faults| {
-        let (mut library, _) = load(text, options, faults)?;
-        library.load_tables(options.loader, faults);
+        let (library, _) = load(text, options, faults)?;
         let parts = Parts::read(&library, faults);
         if library.section("run").is_some() {
             read_run(&parts.reading);
@@ -253,8 +258,7 @@ pub fn read_network(
 /// All faults of the text, each with its place.
 pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
     let posed = checked(|faults| {
-        let (mut library, _) = load(text, options, faults)?;
-        library.load_tables(options.loader, faults);
+        let (library, _) = load(text, options, faults)?;
         let Parts { reading, network, measures, limits, accuracy, .. } =
             Parts::read(&library, faults);
         let (run, stops) = read_run(&reading);
@@ -394,8 +398,7 @@ impl<'d> Parts<'d> {
 }
 
 fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
-    let (mut library, source) = load(text, options, faults)?;
-    library.load_tables(options.loader, faults);
+    let (library, source) = load(text, options, faults)?;
     let Parts { reading, network, title, measures, limits, accuracy, mut notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);
@@ -446,6 +449,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         accuracy,
         measures,
         limits: Vec::new(),
+        warnings: Vec::new(),
         notes,
         scatter,
         values,

@@ -159,6 +159,16 @@ impl Limit {
         Self { key: key.into(), bound, from: None, of_mean: false }
     }
 
+    /// Adds further ones to some, but for those that are among them.
+    pub fn add(all: &mut Vec<Self>, further: impl IntoIterator<Item = Self>) {
+        for own in further {
+            let is_same = |known: &Self| known.key == own.key && known.bound == own.bound;
+            if !all.iter().any(is_same) {
+                all.push(own);
+            }
+        }
+    }
+
     /// The same on a measure that is `factor` times as large, positive.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let bound = match self.bound {

@@ -90,7 +90,8 @@ pub const STANDARDS: &[Standard] = &[
     Standard {
         word: "en-1621-1-level-2",
         edition: "EN 1621-1:2012, level 2",
-        test: "limb protectors for motorcyclists: 5 kg with 50 J, striker of 40 x 30 mm on a dome of 50 mm",
+        test: "limb protectors for motorcyclists: 5 kg with 50 J, striker of 40 x 30 mm on a dome of 50 mm; only the mean \
+               is known here, the standard limits single values as well",
         kinds: FORCE,
         bounds: &[(20e3, true)],
         dome: Some(0.05),
@@ -108,7 +109,8 @@ pub const STANDARDS: &[Standard] = &[
     Standard {
         word: "en-1621-2-level-2",
         edition: "EN 1621-2:2014, level 2",
-        test: "back protectors for motorcyclists: 5 kg with 50 J",
+        test: "back protectors for motorcyclists: 5 kg with 50 J; only the mean is known here, the standard limits single \
+               values as well",
         kinds: FORCE,
         bounds: &[(9e3, true)],
         dome: None,

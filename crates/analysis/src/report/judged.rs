@@ -41,8 +41,8 @@ impl Judged<'_> {
 
     /// What the mean of the sample says; some designs may end before their values are whole.
     fn of_sample(&self) -> Judgement {
-        let known = |own: &Chance| own.kept + own.beyond + own.outside + own.exceeded;
-        let is_open = self.chance.is_none_or(|own| known(own) < own.designs);
+        let known = |own: &Chance| own.odds.kept + own.beyond + own.outside + own.odds.exceeded;
+        let is_open = self.chance.is_none_or(|own| known(own) < own.odds.designs);
         match self.value().zip(self.error()) {
             Some((value, error)) => self.limit.bound.judge(value, Some(error), is_open),
             None => Judgement::Undecided(Reason::NoValue),

@@ -20,7 +20,8 @@ pub struct Table {
     /// The times \[s\].
     pub times: Vec<f64>,
     /// The outputs: position, velocity and acceleration of each node, then deformation, rate and
-    /// force of each element.
+    /// force of each element. Accelerations are those of accelerometers as measured curves have them: positive away
+    /// from the support, against the velocity of what falls on it.
     pub columns: Vec<Column>,
 }
 
@@ -40,6 +41,20 @@ pub fn table(assembly: &Assembly, trajectory: &Trajectory, count: usize) -> Tabl
 /// The outputs of all nodes and elements at these times \[s\], which rise and lie within the run,
 /// from the right where they jump; of a large network those that were [kept](Trajectory::keeps).
 pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> Table {
+    let mut own = outputs_at(assembly, trajectory, times);
+    let accelerations = assembly.nodes.iter().filter_map(|node| node.acceleration);
+    let outputs = &assembly.system.outputs;
+    let names: Vec<&str> =
+        accelerations.filter_map(|at| outputs.get(at)).map(|output| output.name).collect();
+    for column in own.columns.iter_mut().filter(|own| names.contains(&own.name.as_str())) {
+        // A zero has no sign.
+        column.values.iter_mut().for_each(|value| *value = 0.0 - *value);
+    }
+    own
+}
+
+/// The same, each as the motion counts it.
+fn outputs_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> Table {
     let system = &assembly.system;
     let nodes = assembly.nodes.iter();
     let nodes = nodes.flat_map(|node| [Some(node.position), node.velocity, node.acceleration]);

@@ -7,8 +7,8 @@ use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::partial::{Neglected, Partial, PutBack, Why};
 use crate::{
-    Chance, Judged, Ledger, MeasureReport, Note, Reason, RunReport, ScatterReport, SolverReport,
-    Warning,
+    Chance, Judged, Ledger, MeasureReport, Note, Odds, Reason, RunReport, ScatterReport,
+    SolverReport, Warning,
 };
 
 /// States what a type is serialised as: a map of these keys, in this order.
@@ -54,6 +54,7 @@ serialized!(ScatterReport, own => {
     "sources" => own.sources,
     "measures" => Pairs(own.bands.iter().map(|own| (&own.key, own)).collect()),
     "limits" => own.limits,
+    "all_limits" => own.all_limits,
     "instantiated" => own.instantiated,
     "unsolved" => own.unsolved,
     "why" => own.why,
@@ -63,10 +64,18 @@ serialized!(Chance, own => {
     "key" => own.limit.key,
     own.limit.bound.word() => own.limit.bound.level(),
     "of_mean" => own.limit.of_mean,
-    "kept" => own.kept,
+    "kept" => own.odds.kept,
     "beyond_known" => own.beyond,
     "harder_outside" => own.outside,
+    "exceeded" => own.odds.exceeded,
+    "probability" => own.odds.share(),
+    "range" => own.odds.range(),
+});
+
+serialized!(Odds, own => {
+    "kept" => own.kept,
     "exceeded" => own.exceeded,
+    "not_known" => own.not_known(),
     "probability" => own.share(),
     "range" => own.range(),
 });

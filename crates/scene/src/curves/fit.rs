@@ -3,7 +3,7 @@
 use dashpot_network::{Element as _, elements::TableSpring, parameters::CurveRole};
 use dashpot_numerics::isotonic::{Block, rising};
 
-use super::{Difference, Fitted, Row, record::turn, thin::thinned};
+use super::{Difference, Fitted, Row, thin::thinned};
 
 /// Rows at one deformation.
 #[derive(Debug, Clone, Copy)]
@@ -13,11 +13,6 @@ struct Level {
     value: f64,
     /// How many there are.
     count: f64,
-}
-
-/// Whether the rows go one way, apart from noise; else the number of the row at which they turn back.
-pub(crate) fn is_outward(rows: &[Row]) -> Result<(), usize> {
-    turn(rows).map_or(Ok(()), Err)
 }
 
 /// The curve of a role, other than unloading, through rows in any order.

@@ -10,8 +10,8 @@ mod record;
 mod thin;
 
 pub use change::CurveChange;
-pub(crate) use fit::{fit, is_outward, unloading};
-pub(crate) use record::split;
+pub(crate) use fit::{fit, unloading};
+pub(crate) use record::{outward, split, turning_row};
 
 /// Rows of a curve in the order of a file.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,6 +16,7 @@ use crate::{
         table::text_of,
     },
     units::{UnitError, format_short, parse_quantity, si_unit},
+    vary::variation::Written,
 };
 
 impl KindReader<'_> {
@@ -91,6 +92,13 @@ pub(super) fn unit(
         return one(header.text, Place::new(file.number, &header.span())).map(Some);
     };
     let text = text_of(given, "a unit", reader.faults)?;
+    let own = Written::split(text);
+    if own.number.is_finite() && !own.unit.is_empty() {
+        let message = format!("`{text}` is a quantity; a unit stands here without a number");
+        let help = format!("write \"{}\": the numbers stand in the file", own.unit);
+        reader.faults.error(given.place, Fault::odd(message, help));
+        return None;
+    }
     let factor = one(text, given.place)?;
     if let Some(header) = header
         && let Ok(said) = parse_quantity(&format!("1 {}", header.text))

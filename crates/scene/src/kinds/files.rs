@@ -1,22 +1,22 @@
 //! Points from files: `table = "pulse.csv"`, `table-spring = { file = "curve.csv", units = ["%", "kPa"] }`.
 
-use std::ops::Range;
+use std::ops;
 
-use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind, Value};
+use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind, Range, Value};
 
 use super::{
     file_units::{misread_unit, unit},
     parameters::KindReader,
 };
 use crate::{
-    curves::{CurveChange, Difference, Fitted, Row, fit, is_outward, split, unloading},
+    curves::{CurveChange, Difference, Fitted, Row, fit, outward, split, turning_row, unloading},
     diagnostics::fault::Fault,
     models::notes::Remark,
     quantities::quantity::Quantities,
     tables::{DataTable, LeftOut, Samples, Scale, TOLD, TableFault},
     text::{
         document::{Content, Item},
-        library::tables::{FILE, TableFile},
+        library::tables::{FILE, SCALE, TableFile},
         source::Place,
         table::{Table, text_of, wrong_type},
     },
@@ -27,6 +27,8 @@ use crate::{
 struct Wishes<'i> {
     columns: Option<[&'i Item; 2]>,
     units: Option<[&'i Item; 2]>,
+    /// By what the values are multiplied.
+    scale: Option<f64>,
 }
 
 /// Rows of two columns of a file, with where they are from.
@@ -66,19 +68,25 @@ impl<'d> KindReader<'d> {
         };
         let columns = pair("columns", "a pair of numbers or names, for example `[1, 2]`");
         let units = pair("units", "a pair of units, for example `[\"mm\", \"kN\"]`");
-        self.rows(&name?.item, &Wishes { columns: columns?, units: units? }, parameter)
+        let scale = match table.take(SCALE) {
+            Some(own) => {
+                let number = Dimension::NUMBER;
+                Some(self.quantities.within(Range::Positive, SCALE, &own.item, number)?)
+            }
+            None => None,
+        };
+        self.rows(&name?.item, &Wishes { columns: columns?, units: units?, scale }, parameter)
     }
 
     fn rows(self, name: &Item, wishes: &Wishes<'_>, parameter: &Parameter) -> Option<FileRows<'d>> {
         let faults = self.quantities.faults;
         let path = text_of(name, &format!("`{FILE}`"), faults)?;
-        // Where there is none, a fault has been noted.
-        let file = self.quantities.files.get(path)?;
+        let file = self.quantities.files.get(path, name.place, faults)?;
         let note = |column: Option<&str>| {
             let column = column.map_or_else(String::new, |own| format!("in column `{own}`; "));
             format!("{column}the file is named in {}", faults.whereabouts(name.place))
         };
-        let tell = |span: Range<usize>, fault: Fault, column: Option<&str>| {
+        let tell = |span: ops::Range<usize>, fault: Fault, column: Option<&str>| {
             faults.error(Place::new(file.number, &span), fault.with_note(note(column)));
         };
         let table = match DataTable::read(&file.source.text) {
@@ -115,7 +123,9 @@ impl<'d> KindReader<'d> {
             unit(file, table.unit(columns[at]), given, dimensions[at], quantities.unwatched())
         });
         let units = [first?, second?];
-        let scales = units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
+        let mut scales =
+            units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
+        scales[1].factor *= wishes.scale.unwrap_or(1.0);
         let samples = table.samples(columns, scales, |error| {
             tell(error.span, Fault::Table(*error.fault), error.column.as_deref());
         })?;
@@ -263,12 +273,19 @@ impl<'d> KindReader<'d> {
             tell(row.start, TableFault::Negative { curve: name });
             return None;
         }
-        if parameter.curve != CurveRole::Unloading
-            && let Err(at) = is_outward(rows)
-        {
-            tell(rows[at].start, TableFault::TurnsBack { curve: name });
-            return None;
-        }
+        let rows = if parameter.curve == CurveRole::Unloading {
+            &rows[..]
+        } else {
+            let Some(out) = outward(rows) else {
+                tell(turning_row(rows)?.start, TableFault::TurnsBack { curve: name });
+                return None;
+            };
+            if let [first, .., last] | [first @ last] = &rows[out.len()..] {
+                let lines = [first, last].map(|own| file.line(own.start));
+                file.remark(Remark::WayBack { curve: name, lines });
+            }
+            out
+        };
         let fitted = match (parameter.curve, before) {
             (CurveRole::Unloading, Some(Value::Table(loading))) => unloading(loading, rows),
             (role, _) => Some(fit(rows, role)),
@@ -343,7 +360,7 @@ fn out_of_order(
     table: &DataTable<'_>,
     column: usize,
     samples: &Samples,
-) -> Vec<(Range<usize>, TableFault)> {
+) -> Vec<(ops::Range<usize>, TableFault)> {
     let (mut before, mut errors) = (0, Vec::new());
     for (at, point) in samples.points.iter().enumerate() {
         if point.0 >= samples.points[before].0 {

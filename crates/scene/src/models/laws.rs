@@ -119,6 +119,20 @@ impl<'d> LawReader<'d> {
     }
 }
 
+/// Whether a model has any time that a shift changes.
+pub(super) fn has_times(model: &Model) -> bool {
+    fn is_same(one: &Model, other: &Model) -> bool {
+        match (one, other) {
+            (Tree::Part(one), Tree::Part(other)) => one.values() == other.values(),
+            (one, other) => {
+                let pairs = one.branches().iter().zip(other.branches());
+                pairs.into_iter().all(|(one, other)| is_same(&one.tree, &other.tree))
+            }
+        }
+    }
+    shifted(model, 2.0).map_or(true, |own| !is_same(model, &own))
+}
+
 /// The size of an element that has one.
 fn extent_of(element: &dyn Element) -> Extent {
     let [thickness, area] = SIZE.map(|key| {

@@ -112,6 +112,7 @@ pub fn read_named_model(
         let is_material = matches!(found, Found::Model(reference) if reference.section == ModelSection::Materials);
         let (name, mut notes, span) =
             (entry.key.to_string(), models.notes(), lines_of(&source, entry));
+        notes.extend(library.table_notes());
         notes.extend(means(&source.text, entry));
         if is_shared {
             let subject = match found {

@@ -50,6 +50,15 @@ pub enum Remark {
     },
     /// Lines of a file are no part of its table.
     LeftOut(LeftOut),
+    /// Lines of a record behind its largest deformation are no part of a law of one branch.
+    WayBack {
+        /// Of which parameter it is the curve.
+        curve: &'static str,
+        /// The first and the last line, from 1.
+        lines: [usize; 2],
+    },
+    /// A pad gives back all that it takes up, where what is asked for hangs on what it loses.
+    Elastic,
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
     /// The mean of a number with scatter, as it is written, stands for it.
@@ -67,6 +76,8 @@ impl Remark {
             Self::Curve(_) => "curve",
             Self::ConstantArea { .. } => "constant-area",
             Self::LeftOut(_) => "lines-left-out",
+            Self::WayBack { .. } => "way-back-left-out",
+            Self::Elastic => "elastic",
             Self::Upward(_) => "upward",
             Self::Mean(_) => "mean",
         }
@@ -106,6 +117,20 @@ impl fmt::Display for Remark {
                 )
             }
             Self::LeftOut(lines) => write!(f, "{lines}"),
+            Self::WayBack { curve, lines: [first, last] } => {
+                let lines = match last - first {
+                    0 => format!("line {first}, after the largest deformation, is left out"),
+                    _ => format!(
+                        "lines {first} to {last}, after the largest deformation, are left out"
+                    ),
+                };
+                write!(f, "{lines}: `{curve}` is a curve of loading alone")
+            }
+            Self::Elastic => write!(
+                f,
+                "its law is elastic: the peak counts, but rebound, impulse, energy and HIC do not show what a real \
+                 foam loses; `hysteretic-foam` and `hysteretic-table` lose it"
+            ),
             Self::Upward(acceleration) => write!(
                 f,
                 "{} pulls away from the support; positive is towards it",

@@ -12,6 +12,7 @@ use dashpot_rheology::Tree;
 use super::{
     Descent, ModelReader,
     context::{Context, Site},
+    laws::has_times,
     tables::{Given, Law, ReadBranch},
 };
 use crate::{
@@ -33,9 +34,18 @@ impl<'d> ModelReader<'d> {
         law: Law<'d>,
         descent: &mut Descent,
     ) -> Option<ReadBranch<'d>> {
-        let pressed_by = law.context.pressed_by;
+        let (pressed_by, shift) = (law.context.pressed_by, law.shift);
         let from = descent.pads.count;
         let own = self.of_law(site, law, descent)?;
+        if let (Some((word, place)), Some(model)) = (shift, &own.model)
+            && !has_times(model)
+        {
+            let message =
+                format!("`{word}` shifts times, and this law has none: it changes nothing");
+            let help =
+                "leave `shift` out; forces and moduli are those at the temperature of the test";
+            self.faults.warning(place, Fault::odd(message, help));
+        }
         let Some((indenter, place)) = pressed_by else { return Some(own) };
         descent.pads.forget_areas(from);
         let extent = Extent { area: None, ..own.extent };
@@ -59,7 +69,8 @@ impl<'d> ModelReader<'d> {
             Err(InvalidParameter { range, found, .. }) => {
                 let message = format!("what `pressed-by` presses must be {range}, but has {found}");
                 let help = "give an `area` instead, which is loaded at once; or press a material of \
-                            the deformation alone, with the dashpot in parallel beside the pad";
+                            the deformation alone, such as a `table-spring`, which takes the loading of a \
+                            record, with the dashpot in parallel beside the pad";
                 Fault::odd(message, help)
             }
         };

@@ -30,6 +30,8 @@ use crate::{
 pub(super) struct Law<'d> {
     pub(super) entry: &'d Entry,
     pub(super) context: Context,
+    /// The shift that stands beside it, and where.
+    pub(super) shift: Option<(&'static str, Place)>,
     given: Given<'d>,
 }
 
@@ -41,17 +43,19 @@ impl<'d> ModelReader<'d> {
         let given = site.other_keys.contains(&"name").then(|| self.given_name(entries)).flatten();
         let reader = ContextReader { library: self.library, faults: self.faults };
         let (context, shift) = reader.read(site, entries, entry);
+        let place = || entries.iter().find(|own| own.key == "shift").map(|own| own.key_place);
+        let at = shift.as_ref().and_then(|own| Some((own.word, place()?)));
         if let Some(Shift { word, factor }) = shift {
             self.note(descent, given, (Remark::Shift { word, factor }, None));
         }
-        Some(Law { entry, context, given })
+        Some(Law { entry, context, shift: at, given })
     }
 
     /// The model that a law stands for; `None` as by [`read`](Self::read).
     pub(super) fn of_law(
         &self,
         site: &Site<'d>,
-        Law { entry, context, given }: Law<'d>,
+        Law { entry, context, given, .. }: Law<'d>,
         descent: &mut Descent,
     ) -> Option<ReadBranch<'d>> {
         match entry.key.as_str() {

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::{
     units::{UnitError, parse_quantity},
-    vary::variation::Written,
+    vary::variation::{Written, handy},
 };
 
 /// The sign between a mean and its standard deviation, and what may be typed in its place.
@@ -41,6 +41,9 @@ pub enum ScatterFault {
     /// The mean has a unit, the standard deviation has none.
     #[error("the standard deviation `{deviation}` has no unit, and its mean is in {unit}")]
     NoUnit { mean: String, deviation: String, unit: String },
+    /// Percent behind a number alone, or behind percent: points, or a part of the mean.
+    #[error("`{mean} ± {deviation}` may be a part of the mean, or both in percent")]
+    PartOrPoints { mean: String, deviation: String, of: f64, points: f64, is_percent: bool },
     /// They measure different things.
     #[error("`{mean}` and its standard deviation `{deviation}` do not measure the same")]
     Mixed { mean: String, deviation: String },
@@ -65,6 +68,17 @@ impl ScatterFault {
             Self::NoUnit { mean, deviation, unit } => {
                 format!("write \"{mean} ± {deviation} {unit}\", or a share such as \"{mean} ± 10 %\"")
             }
+            Self::PartOrPoints { of, points, is_percent, .. } => {
+                let part = handy(0.01 * points * of.abs());
+                let part = match is_percent {
+                    true => format!("({of} ± {part}) %"),
+                    false => format!("{of} ± {part}"),
+                };
+                format!(
+                    "write \"{part}\" where {points} % of {of} are meant, or \"({of} ± {points}) %\" where both \
+                     are in percent"
+                )
+            }
             Self::Elsewhere { .. } => "it may stand under [values], [models], [materials], [nodes], [elements], \
                  [effects] and [loads]"
                 .to_owned(),
@@ -87,6 +101,7 @@ impl Scatter {
     /// begin with a number, or `+-` stands in arithmetic.
     pub(crate) fn parse(text: &str) -> Option<Result<Self, ScatterFault>> {
         let joined = in_brackets(text);
+        let is_joined = joined.is_some();
         let text = joined.as_deref().unwrap_or(text).trim();
         let begins_as_number = |own: &str| {
             own.starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
@@ -99,10 +114,11 @@ impl Scatter {
         if !begins_as_number(mean) || is_arithmetic {
             return None;
         }
-        Some(Self::of(mean, deviation))
+        Some(Self::of(mean, deviation, is_joined))
     }
 
-    fn of(mean: &str, deviation: &str) -> Result<Self, ScatterFault> {
+    /// `is_joined` where the unit stands behind both.
+    fn of(mean: &str, deviation: &str, is_joined: bool) -> Result<Self, ScatterFault> {
         if parse_quantity(mean).is_err() && is_arithmetic(mean, &|_| false) {
             return Err(ScatterFault::Computed { text: mean.to_owned() });
         }
@@ -116,13 +132,18 @@ impl Scatter {
             let (mean, deviation) = (of.number.to_string(), deviation.to_owned());
             return Err(ScatterFault::NoUnit { mean, deviation, unit: of.unit.to_owned() });
         }
+        if own.unit == "%" && ["", "%"].contains(&of.unit) && !is_joined {
+            let (mean, deviation) = both();
+            let (of, points, is_percent) = (of.number, own.number, !of.unit.is_empty());
+            return Err(ScatterFault::PartOrPoints { mean, deviation, of, points, is_percent });
+        }
         let mixed = |_| {
             let (mean, deviation) = both();
             ScatterFault::Mixed { mean, deviation }
         };
         let unit = if of.unit.is_empty() { own.unit } else { of.unit };
         let size = if own.unit == "%" && unit != "%" {
-            0.01 * own.number * of.number.abs()
+            handy(0.01 * own.number * of.number.abs())
         } else {
             own.in_unit(unit).map_err(mixed)?
         };
@@ -164,16 +185,26 @@ mod tests {
             ("20 +- 2 MN/m", "20 MN/m", 2.0, "MN/m"),
             ("(20 ± 2) MN/m", "20 MN/m", 2.0, "MN/m"),
             ("20 MN/m ± 10 %", "20 MN/m", 2.0, "MN/m"),
+            ("0.7 MPa ± 10 %", "0.7 MPa", 0.07, "MPa"),
             ("20 MN/m ± 500 kN/m", "20 MN/m", 0.5, "MN/m"),
             ("-2e1±1 mm", "-2e1 mm", 1.0, "mm"),
             ("-20 mm ± 10 %", "-20 mm", 2.0, "mm"),
-            ("30 ± 5 %", "30 %", 5.0, "%"),
+            ("(30 ± 5) %", "30 %", 5.0, "%"),
             ("0.3 ± 0.05", "0.3", 0.05, ""),
         ] {
             let own = read(text);
             assert_eq!((&*own.text, &*own.unit), (mean, unit), "{text}");
-            assert!((own.deviation - deviation).abs() < 1e-15, "{text}: {}", own.deviation);
+            assert_eq!(own.deviation.to_string(), deviation.to_string(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_part_and_points_of_percent_are_told_apart() {
+        let help = "write \"1 ± 0.1\" where 10 % of 1 are meant, or \"(1 ± 10) %\" where both are in percent";
+        assert_eq!(fault("1 ± 10 %").help(), help);
+        let help = "write \"(30 ± 1.5) %\" where 5 % of 30 are meant, or \"(30 ± 5) %\" where both are in percent";
+        assert_eq!(fault("30 % ± 5 %").help(), help);
+        assert!((read("(30 ± 1.5) %").deviation - 1.5).abs() < 1e-15);
     }
 
     #[test]
@@ -191,6 +222,8 @@ mod tests {
             ("20 MN/m ± 2 kg", "do not measure the same"),
             ("20 ± -2 MN/m", "`-2 MN/m` is negative"),
             ("20 ± x", "behind `±`: `x` does not begin with a number"),
+            ("1 ± 10 %", "`1 ± 10 %` may be a part of the mean, or both in percent"),
+            ("30 % ± 5 %", "`30 % ± 5 %` may be a part of the mean, or both in percent"),
             ("20 ± 2 mx", "`mx` is not a known unit"),
         ] {
             let fault = fault(text);

@@ -129,7 +129,12 @@ pub(super) fn of_file() -> Value {
         pair(&unit, &unit),
         "units of the two columns, where the header of the file does not say them",
     );
-    let own = [("file", reference("file")), ("columns", columns), ("units", units)];
+    let scale = described_as(
+        json!({ "type": ["number", "string"] }),
+        "what the values of the second column are multiplied by; it may have scatter",
+    );
+    let own =
+        [("file", reference("file")), ("columns", columns), ("units", units), ("scale", scale)];
     let mut table = closed("", own);
     table["required"] = json!(["file"]);
     table

@@ -3,9 +3,9 @@
 use dashpot_analysis::{
     Bound, Limit,
     limits::standards::{STANDARDS, standard},
-    measures::MeasureEntry,
+    measures::{MEASURES, MeasureEntry},
 };
-use dashpot_network::parameters::Dimension;
+use dashpot_network::parameters::{Dimension, registered};
 
 use super::{
     Reading, Targets,
@@ -47,9 +47,27 @@ pub(crate) fn read_limits(reading: &Reading<'_>, targets: &Targets<'_, '_>) -> V
     limits
 }
 
+/// A bound with its sign in the text, as on the command line: `< 1000`.
+fn signed(text: &str) -> Option<(&'static str, &str)> {
+    let text = text.trim();
+    [("<=", "max"), ("<", "max"), ("≤", "max"), (">=", "min"), (">", "min"), ("≥", "min")]
+        .into_iter()
+        .find_map(|(sign, key)| Some((key, text.strip_prefix(sign)?.trim())))
+}
+
 /// The limits that one value states: a number is the most that is allowed, a word is that of a standard.
 fn one(reading: &Reading<'_>, own: &OfMeasure<'_>, item: &Item) -> Option<Vec<Limit>> {
     let kind = own.kind?;
+    if let Content::Text(text) = &item.value
+        && let Some((key, level)) = signed(text)
+    {
+        let message = format!("`{text}` has a sign, which the key says here");
+        let help = format!(
+            "write {{ {key} = \"{level}\" }}; a quantity alone is the most that is allowed"
+        );
+        reading.faults.error(item.place, Fault::odd(message, help));
+        return None;
+    }
     match &item.value {
         Content::Text(word) if is_word(reading, word) => by_standard(reading, own, item, word),
         Content::Number(_) | Content::Text(_) => Some(vec![at_most(reading, own, kind, item)?]),
@@ -185,6 +203,7 @@ fn in_full(
 /// assert_eq!(limits[0].bound, Bound::Max(250.0 * 9.80665));
 /// assert_eq!(parse_limits("pad.peak-force=en-1621-1-level-1").unwrap().len(), 2);
 /// assert!(parse_limits("head.peak-acceleration<=250 mm").unwrap_err().contains("a length"));
+/// assert!(parse_limits("hic15<=700").unwrap_err().contains("write `NAME.hic15<=700`"));
 /// assert!(parse_limits("head.peak-acceleration<=250").unwrap_err().contains("write \"250 g\" or"));
 /// ```
 ///
@@ -199,6 +218,11 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
     let [max, min] = ["<=", ">="].map(|sign| rest.strip_prefix(sign));
     let by_word = rest.strip_prefix('=').map(str::trim);
     let Some(kind) = Limit::new(key, Bound::Max(0.0)).measure() else {
+        if registered(MEASURES, key).is_some() {
+            return Err(format!(
+                "`{key}` is a measure of what? write `NAME.{key}{rest}`, as in \"head.hic15<=700\""
+            ));
+        }
         return Err(format!("`{key}` is no measure; `dashpot list measures` shows them"));
     };
     if let Some(rest) = by_word {

@@ -103,7 +103,9 @@ pub enum TableFault {
     #[error("the largest value of `{curve}` is negative; compression is positive here")]
     Negative { curve: &'static str },
     /// A curve of one branch that goes back.
-    #[error("the deformation of `{curve}` turns back here; the law has one branch")]
+    #[error(
+        "the deformation of `{curve}` turns back after this row, and goes on; the law has one branch"
+    )]
     TurnsBack { curve: &'static str },
     /// A record of more than one cycle.
     #[error("a second cycle begins here; a record is loaded and unloaded once")]
@@ -180,7 +182,8 @@ impl TableFault {
             Self::TooManyRows => "leave out rows that lie on the line between their neighbours",
             Self::Negative { .. } => "turn the signs of both columns in the file",
             Self::TurnsBack { .. } => {
-                "cut the file here, or give the whole record to `hysteretic-table`"
+                "cut the file behind this row, or to one cycle: then this law takes the loading, and \
+                 `hysteretic-table` both branches"
             }
             Self::SecondCycle => "cut the file to the cycle that is meant",
             Self::NoUnloading => "use `table-spring`, or a record that goes back",

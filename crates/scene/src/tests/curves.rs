@@ -3,7 +3,7 @@
 use dashpot_analysis::{Solve, SolveSettings};
 use dashpot_network::parameters::Value;
 
-use crate::{Checked, Diagnostics, ModelNote, ReadOptions, Remark, Scene, read};
+use crate::{Checked, Diagnostics, ModelNote, ReadOptions, Remark, Scene, read, read_named_model};
 
 fn beside(text: &str, bytes: &[u8]) -> Result<Checked<Scene>, Diagnostics> {
     let loader = |path: &str| match path {
@@ -224,7 +224,11 @@ fn what_is_wrong_with_a_file_is_told_with_row_column_and_remedy() {
         &["curve.csv:3:1", "has 4 fields", "line of the table has 2", "help: decimals"],
     );
     at("1;-2\n2;-5\n", &["curve.csv:4:1", "largest value", "negative", "turn the signs of both"]);
-    at("9;2\n10;5\n5;1\n0;0\n", &["curve.csv:5:1", "turns back here", "`hysteretic-table`"]);
+    at(
+        "9;2\n10;5\n5;1\n9;3\n",
+        &["curve.csv:4:1", "turns back after this row", "cut the file behind"],
+    );
+    at("9;2\n5;1\n10;5\n", &["curve.csv:3:1", "turns back after this row", "`hysteretic-table`"]);
     at("x [mm];F [kN]\n1;1\n", &["curve.csv:3:1", "`x [mm]` is not a number", "column `x`"]);
     has(&told("x [mm];F [kg]\n0;0\n1;1\n"), &["curve.csv:1:11", "a force (N) is expected here"]);
     has(
@@ -323,6 +327,92 @@ fn lines_before_a_table_are_told_and_units_that_nobody_writes_are_names() {
             "deformations are read in m, the largest is 1 mm; forces are read in N, the largest is 100 N",
         ],
     );
+}
+
+#[test]
+fn a_law_of_one_branch_takes_a_record_up_to_its_largest_deformation() {
+    let text = pad("table-spring = \"curve.csv\"");
+    let rows = |back: &str| format!("x [mm],F [N]\n0,0\n5,100\n10,400\n{back}");
+    let alone = numbers(&beside(&text, rows("").as_bytes()).unwrap().value);
+    for (back, lines) in [
+        ("9.8,350\n", "line 5, after"),
+        ("10,380\n9.8,350\n9,300\n", "lines 5 to 7, after"),
+        ("5,50\n0,0\n", "lines 5 to 6, after"),
+    ] {
+        let scene = beside(&text, rows(back).as_bytes()).unwrap().value;
+        assert_eq!(numbers(&scene), alone, "{back}");
+        let [note] = &scene.notes[..] else { panic!("{:?}", scene.notes) };
+        assert_eq!(note.what.code(), "way-back-left-out");
+        has(&note.what.to_string(), &[lines]);
+    }
+}
+
+#[test]
+fn a_named_model_reads_its_curve_beside_its_own_file() {
+    let text = "[materials]\nfoam = { table-spring = \"curve.csv\" }\n\
+                other = { table-spring = \"absent.csv\" }\n[models]\nlost = { table-spring = \"gone.csv\" }\n";
+    let loader = |path: &str| match path {
+        "lib/curve.csv" => Ok(b"eps [%],s [kPa]\n0,0\n50,100\n40,80\n".to_vec()),
+        other => Err(format!("no {other}")),
+    };
+    let options = ReadOptions {
+        file: Some("lib/scene.toml"),
+        loader: Some(&loader),
+        ..ReadOptions::default()
+    };
+    let own = read_named_model(text, "foam", &options).unwrap().value;
+    let dashpot_rheology::Tree::Part(element) = &own.model else { panic!("{own:?}") };
+    assert_eq!(element.values(), [Value::Table(vec![(0.0, 0.0), (0.5, 1e5)])]);
+    assert!(own.notes.iter().any(|own| own.what.code() == "way-back-left-out"), "{:?}", own.notes);
+    // What it has to do with another file is told of the model that names it.
+    let told = read_named_model(text, "lost", &options).unwrap_err().render(false);
+    has(&told, &["gone.csv", "no lib/gone.csv"]);
+    let told = read_named_model(text, "lost", &ReadOptions::default()).unwrap_err().render(false);
+    has(&told, &["no other files can be read here"]);
+}
+
+#[test]
+fn a_factor_on_the_values_of_a_file_is_a_number_of_the_scene() {
+    let rows = "x [mm],F [N]\n0,0\n5,100\n10,400\n";
+    let text = |scale: &str| pad(&format!("table-spring = {{ file = \"curve.csv\"{scale} }}"));
+    let plain = numbers(&beside(&text(""), rows.as_bytes()).unwrap().value);
+    let scattered = beside(&text(", scale = \"1.5 ± 0.1\""), rows.as_bytes()).unwrap().value;
+    let right: Vec<f64> = plain.chunks(2).flat_map(|own| [own[0], 1.5 * own[1]]).collect();
+    assert_eq!(numbers(&scattered), right);
+    assert_eq!(scattered.scatter[0].path, "elements.pad.table-spring.scale");
+    // Both branches of a record.
+    let record = format!("{rows}5,50\n0,0\n");
+    let both = |scale: &str| {
+        let law = format!("hysteretic-table = {{ file = \"curve.csv\"{scale} }}");
+        numbers(&beside(&pad(&law), record.as_bytes()).unwrap().value)
+    };
+    let right: Vec<f64> = both("").chunks(2).flat_map(|own| [own[0], 2.0 * own[1]]).collect();
+    assert_eq!(both(", scale = 2"), right);
+    let told = beside(&text(", scale = -1"), rows.as_bytes()).unwrap_err().render(false);
+    has(&told, &["scene.toml:4", "`scale`", "positive"]);
+}
+
+#[test]
+fn a_number_with_a_unit_is_no_unit() {
+    let text = pad("table-spring = { file = \"curve.csv\", units = [\"mm\", \"1.3 kN\"] }");
+    let told = beside(&text, b"0,0\n1,2\n").unwrap_err().render(false);
+    has(&told, &["`1.3 kN` is a quantity; a unit stands here without a number", "write \"kN\""]);
+}
+
+#[test]
+fn an_elastic_foam_is_told_where_its_losses_are_asked_for() {
+    let rows = b"x [mm],F [N]\n0,0\n5,100\n10,400\n5,50\n0,0\n";
+    let elastic = |law: &str, rest: &str| {
+        let notes = beside(&format!("{}{rest}", pad(law)), rows).unwrap().value.notes;
+        notes.iter().filter(|own| own.what.code() == "elastic").count()
+    };
+    let [limit, peak] =
+        ["[limits]\nhead.hic15 = 700\n", "[limits]\nhead.peak-acceleration = \"99 g\"\n"];
+    assert_eq!(elastic("table-spring = \"curve.csv\"", limit), 1);
+    assert_eq!(elastic("table-spring = \"curve.csv\"", "[measures]\nhead = [\"hic15\"]\n"), 1);
+    assert_eq!(elastic("table-spring = \"curve.csv\"", peak), 0);
+    assert_eq!(elastic("hysteretic-table = \"curve.csv\"", limit), 0);
+    assert_eq!(elastic("spring = \"2 kN/m\"", limit), 0);
 }
 
 #[test]

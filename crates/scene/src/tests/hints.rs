@@ -308,3 +308,10 @@ fn an_energy_is_the_speed_that_makes_it() {
     has(&shown, &["`drop` and `energy` exclude each other"]);
     has(&messages(&of("mass = 4, energy = -1")), &["`energy` must be zero or positive"]);
 }
+
+#[test]
+fn a_limit_with_a_sign_is_told_its_key() {
+    let told = messages(&format!("{}[limits]\nhead.hic15 = \"< 1000\"\n", on_model("spring = 1")));
+    assert!(told.contains("`< 1000` has a sign, which the key says here"), "{told}");
+    assert!(told.contains("write { max = \"1000\" }"), "{told}");
+}

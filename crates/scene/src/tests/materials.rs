@@ -244,3 +244,17 @@ fn every_composite_of_a_material_is_in_proportion_to_the_area() {
         assert_eq!(constants(&pad), doubled, "{}", kind.word);
     }
 }
+
+#[test]
+fn a_shift_of_a_law_without_times_is_told_to_change_nothing() {
+    let shift = "shift = { wlf = { temperature = \"30 degC\", reference = \"20 degC\" } }";
+    let warned = |law: &str| {
+        let checked = read_text(&on_model(&format!("{law}, {shift}"))).unwrap();
+        checked.warnings.render(false).contains("`wlf` shifts times, and this law has none")
+    };
+    assert!(warned("spring = 1"));
+    assert!(warned("table-spring = [[0, 0], [1, 1]]"));
+    assert!(warned("parallel = [{ spring = 1 }, { table-spring = [[0, 0], [1, 1]] }]"));
+    assert!(!warned("dashpot = 1"));
+    assert!(!warned("parallel = [{ spring = 1 }, { maxwell = { spring = 1, dashpot = 1 } }]"));
+}

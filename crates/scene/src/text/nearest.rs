@@ -15,6 +15,8 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("k", "spring"),
     ("speed", "velocity"),
     ("height", "drop"),
+    ("peak-g", "peak-acceleration"),
+    ("max-g", "peak-acceleration"),
 ];
 
 /// The word that is known for what other programs and books call `word`.

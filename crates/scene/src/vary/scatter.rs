@@ -67,14 +67,19 @@ impl ScatteredNumber {
         };
         // What a unit of its own zero, such as that of degrees Celsius, makes of nothing.
         let deviation = parsed(scatter.deviation) - parsed(0.0);
-        let spread = number_text(scatter.deviation, &scatter.unit);
+        let numbers =
+            format!("{} ± {}", number_text(scatter.mean, ""), number_text(scatter.deviation, ""));
+        let text = match &*scatter.unit {
+            "%" => format!("({numbers}) %"),
+            unit => format!("{numbers} {unit}").trim_end().to_owned(),
+        };
         Self {
             path: own.path.clone(),
             name: own.name.clone(),
             mean: own.value,
             deviation,
             dimension: own.dimension,
-            text: format!("{} ± {spread}", number_text(scatter.mean, "")),
+            text,
         }
     }
 }

@@ -46,6 +46,9 @@ pub enum VariationFault {
     /// There is no name, or nothing behind it.
     #[error("`{text}` does not name a parameter and its values")]
     NoValues { text: String },
+    /// A further number among the values.
+    #[error("`{text}` is another number of the scene")]
+    Another { text: String },
     /// A value that is no quantity.
     #[error("{error}")]
     BadValue { error: UnitError },
@@ -74,6 +77,7 @@ impl VariationFault {
     pub fn help(&self) -> String {
         match self {
             Self::UnknownScale { near: Some(near), .. } => format!("did you mean `{near}`?"),
+            Self::Another { text } => format!("write `--vary` once more, for all combinations: `--vary \"{text}\"`"),
             Self::Falling { first, second } => format!("write them as `{second}..{first}`, rising"),
             _ => "write `--vary \"K=5..30 MN/m,26,log\"` for 26 values at equal ratios (`lin`: equal \
                   differences), or `--vary \"K=5,10,20 MN/m\"` for a list"
@@ -136,6 +140,9 @@ impl Variation {
         let nothing = || VariationFault::NoValues { text: text.trim().to_owned() };
         let (name, values) = text.rsplit_once('=').ok_or_else(nothing)?;
         let (name, values) = (name.trim(), values.trim());
+        if let Some((_, other)) = name.rsplit_once(',').filter(|own| own.0.contains('=')) {
+            return Err(VariationFault::Another { text: format!("{}={values}", other.trim()) });
+        }
         if name.is_empty() || values.is_empty() {
             return Err(nothing());
         }
@@ -330,6 +337,13 @@ mod tests {
         assert_eq!(own.values, [2e3, 4e3, 6.5e3]);
         assert_eq!(own.text(2), "6.5 kN s/m");
         assert_eq!(Variation::parse("h=8 mm,2 cm").unwrap().numbers, [0.8, 2.0]);
+    }
+
+    #[test]
+    fn a_second_number_asks_for_an_argument_of_its_own() {
+        let fault = Variation::parse("T=5..10 mm,V=2..4 m/s,3").unwrap_err();
+        assert_eq!(fault.to_string(), "`V=2..4 m/s,3` is another number of the scene");
+        assert!(fault.help().contains("`--vary \"V=2..4 m/s,3\"`"), "{}", fault.help());
     }
 
     #[test]

@@ -9,9 +9,7 @@ use dashpot_plot::{MeasuredSeries, Of};
 use dashpot_scene::{DataTable, Scene};
 
 use super::series::first_touch;
-use crate::{
-    args::signed_time, error::CliError, measured::MeasuredFile, numbers::constant, origin,
-};
+use crate::{args, error::CliError, measured::MeasuredFile, numbers::constant, origin};
 
 /// Which measured curves stand beside the runs.
 #[derive(Debug, Args)]
@@ -28,7 +26,7 @@ pub(super) struct MeasuredArguments {
         value_name = "TIME",
         allow_hyphen_values = true,
         requires = "measured",
-        value_parser = signed_time
+        value_parser = args::shift
     )]
     shift: Option<f64>,
 }

@@ -18,8 +18,9 @@ use super::{
     limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
-    scatter,
+    resolved_scene, scatter,
     series::{curves, curves_and_energies},
+    solving::settings_table,
     verdict::Line,
 };
 use crate::{
@@ -31,6 +32,7 @@ use crate::{
     operand::read_scene,
     origin,
     output::{Study, Text, VERSION, list, object},
+    said,
     terminal::{Terminal, WIDTH},
     text::indented,
 };
@@ -123,6 +125,14 @@ fn ranks(designs: &[&Design]) -> Option<Vec<usize>> {
     let is_alike = numbers.iter().all(|own| own.dimension == numbers[0].dimension);
     let rank = |own: f64| numbers.iter().filter(|other| other.value < own).count();
     is_alike.then(|| numbers.iter().map(|own| rank(own.value)).collect())
+}
+
+/// The file with the curves of the design at this place, counted from 0: its number and its name, without what is no
+/// part of the name of a file everywhere.
+fn curves_file(at: usize, name: &str) -> String {
+    let is_kept = |own: char| own.is_alphanumeric() || "-_.=+".contains(own);
+    let words = name.split(|own: char| !is_kept(own)).filter(|own| !own.is_empty());
+    format!("{}-{}.csv", at + 1, list(words).join("-"))
 }
 
 /// The names of files without their ending, or whole where these are not told apart by that.
@@ -266,6 +276,24 @@ impl Designs {
         list(self.best().flat_map(of))
     }
 
+    /// The settings of each, with the hashes of its scene and files.
+    fn settings(&self) -> Vec<Table> {
+        let of = |own: &Design| {
+            let table = settings_table(&own.answer);
+            Table { caption: format!("{} of {}", table.caption, own.name), ..table }
+        };
+        list(self.designs.iter().map(of))
+    }
+
+    /// The text of each scene as it was run.
+    fn scene_texts(&self) -> String {
+        let of = |own: &Design| {
+            let text = resolved_scene::text(&own.answer.scene, &own.answer.changes);
+            format!("# {}\n{text}", own.name)
+        };
+        list(self.designs.iter().map(of)).join("\n")
+    }
+
     /// How each was solved.
     fn solved(&self) -> Table {
         let row = |(own, run): (&Design, &RunReport)| {
@@ -291,10 +319,13 @@ impl Designs {
 
     /// The warnings of each design behind what else is said of it.
     fn warned(&self, more: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
-        let of = |own: &Design| {
-            let all = more(own).into_iter().chain(own.answer.new_warnings());
-            list(all.map(|text| format!("{}: {text}", own.name)))
-        };
+        self.of_each(|own| list(more(own).into_iter().chain(own.answer.new_warnings())))
+    }
+
+    /// What is said of each design, behind its name.
+    fn of_each(&self, said: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
+        let of =
+            |own: &Design| list(said(own).into_iter().map(|text| format!("{}: {text}", own.name)));
         self.designs.iter().flat_map(of).collect()
     }
 }
@@ -344,6 +375,7 @@ impl Study for Designs {
                         "name": own.name, "title": scene.title, "file": scene.file,
                         "sha256": origin::of_text(scene), "files": origin::of_files(scene),
                         "values": own.answer.changes.set,
+                        "warnings": said::warning_objects(scene), "notes": said::note_objects(scene),
                     });
                     object.insert("scene".to_owned(), named);
                 }
@@ -382,7 +414,11 @@ impl Study for Designs {
         }
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
-            warnings: self.warned_and_failed(),
+            warnings: self
+                .of_each(|own| said::warnings(&own.answer.scene, &own.answer.warnings()))
+                .into_iter()
+                .chain(self.warned_and_failed())
+                .collect(),
             verdict: {
                 let lines = self.verdicts().into_iter().chain(self.scatter());
                 let lines = lines.map(|line| format!("{}: {}", line.label, line.text));
@@ -391,7 +427,9 @@ impl Study for Designs {
             tables: {
                 let by_curve = self.by_curve();
                 let found = by_curve.iter().filter_map(|own| deviations::table(own));
-                let remarks = list(by_curve.iter().flat_map(|own| deviations::remarks(own)));
+                let remarks = by_curve.iter().flat_map(|own| deviations::remarks(own));
+                let notes = self.of_each(|own| said::notes(&own.answer.scene)).into_iter();
+                let remarks = list(notes.chain(remarks));
                 let side = self.side();
                 let tables = [self.limits(), measures_table(&side)].into_iter();
                 let tables = tables.chain(scatter::ranges(&side)).chain(found);
@@ -399,7 +437,8 @@ impl Study for Designs {
                 list(tables.filter(|table| !table.rows.is_empty()))
             },
             figures,
-            details: vec![self.solved()],
+            details: [self.solved()].into_iter().chain(self.settings()).collect(),
+            scene_text: self.scene_texts(),
             ..Report::default()
         };
         if has(Written::Page) {
@@ -407,8 +446,8 @@ impl Study for Designs {
         }
         for (at, (own, run)) in self.best().enumerate().filter(|_| has(Written::Curves)) {
             let times = files::sample_times(run, &own.answer.scene.run);
-            files
-                .add_with(format!("{}.csv", at + 1), |out| files::write_table(run, &times, out))?;
+            let name = curves_file(at, &own.name);
+            files.add_with(name, |out| files::write_table(run, &times, out))?;
         }
         Ok(())
     }

@@ -23,6 +23,7 @@ use crate::{
     folder::Staged,
     input::title,
     output::{csv, list},
+    said,
     sketch::{MOST_DRAWN, sketch},
 };
 
@@ -168,9 +169,8 @@ fn page(answer: &Answer) -> Report {
     tables.extend(answer.best().and_then(scatter::table));
     let by_curve = answer.by_curve();
     tables.extend(by_curve.iter().filter_map(|own| deviations::table(own)));
-    let remarks = list(
-        notes(answer).into_iter().chain(by_curve.iter().flat_map(|own| deviations::remarks(own))),
-    );
+    let remarks = said::notes(&answer.scene).into_iter().chain(notes(answer));
+    let remarks = list(remarks.chain(by_curve.iter().flat_map(|own| deviations::remarks(own))));
     tables.extend(Some(Table::list("Remarks", remarks)).filter(|own| !own.rows.is_empty()));
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);
@@ -183,9 +183,10 @@ fn page(answer: &Answer) -> Report {
     let changes = answer.changes.description().into_iter();
     let verdict = verdict(answer).into_iter();
     let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
+    let warnings = answer.warnings();
     Report {
         title: title(&answer.scene).to_owned(),
-        warnings: failed.chain(answer.warnings()).collect(),
+        warnings: failed.chain(said::warnings(&answer.scene, &warnings)).chain(warnings).collect(),
         verdict: changes.chain(lines).collect(),
         tables,
         details,

@@ -80,7 +80,11 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         return Some(format!("{designs} designs of the sample are pressed beyond what is known"));
     };
     let what = match warning {
-        Warning::BeyondLaw(own) => format!("{} beyond the points of its law", own.name),
+        Warning::BeyondLaw(own) => format!(
+            "{} beyond the points of its law, where a foam that densifies is stiffer than the straight line that is \
+             taken",
+            own.name
+        ),
         Warning::PressedThrough { through, .. } => format!("{} beyond its thickness", through.name),
         other => format!("{} beyond its thickness", other.names().join(", ")),
     };

@@ -8,6 +8,7 @@ use super::{Answer, solving::direction};
 use crate::{
     origin,
     output::{Pairs, VERSION, list, object},
+    said,
 };
 
 /// The whole answer, with the largest difference between the first run and any other, relative.
@@ -19,6 +20,7 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
         scene: object! {
             title: &scene.title, file: &scene.file,
             sha256: origin::of_text(scene), files: origin::of_files(scene),
+            warnings: said::warning_objects(scene), notes: said::note_objects(scene),
         },
         settings: answer.asked.first().map(|asked| settings(answer, asked)),
         runs: list(answer.runs.iter().map(|run| answer.object_of(run))),

@@ -4,7 +4,7 @@ use std::{num::NonZero, thread::available_parallelism};
 
 use clap::Args;
 use dashpot_analysis::{
-    Band, Chance, Judged, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
+    Band, Judged, Odds, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
 };
 use dashpot_plot::Table;
@@ -144,10 +144,14 @@ pub(super) fn lines(run: &RunReport) -> Vec<Line> {
     } else {
         format!("{} of them instantiated of one compiled form", own.instantiated)
     };
+    let all = own.all_limits.as_ref().map_or_else(String::new, |own| {
+        format!("; probability to keep all limits {}", probability(own))
+    });
     let numbers: Vec<String> =
         own.sources.iter().map(|of| format!("{} = {}", of.name, of.text)).collect();
     let first = format!(
-        "{}; {} designs (Latin hypercube, seed {}), {how}, without error bars of their own",
+        "{}, each normal with the standard deviation behind ±; {} designs (Latin hypercube, seed {}), {how}, \
+         without error bars of their own{all}",
         numbers.join(", "),
         own.designs,
         own.seed
@@ -184,18 +188,20 @@ pub(super) fn chance(judged: &Judged<'_>) -> Option<String> {
     } else {
         "probability to pass"
     };
-    Some(format!("{word} {}", probability(own)))
+    Some(format!("{word} {}", probability(&own.odds)))
 }
 
-fn probability(own: &Chance) -> String {
+fn probability(own: &Odds) -> String {
     let (low, high) = own.range();
-    let unknown = own.designs - own.kept - own.exceeded;
+    let unknown = own.not_known();
     let unknown = match unknown {
         0 => String::new(),
         count => format!(", {count} of {} designs not known", own.designs),
     };
     let [share, low, high] = [own.share(), low, high].map(in_percent);
-    format!("{share} % ({low} to {high} %{unknown})")
+    // What is not known of a design does not count as kept.
+    let at_least = if unknown.is_empty() { "" } else { "at least " };
+    format!("{at_least}{share} % ({low} to {high} %{unknown})")
 }
 
 /// A probability in percent to one decimal.
@@ -255,8 +261,12 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
 }
 
 fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
-    let kind = run.measure(&band.key).map_or("", |own| own.kind);
-    let rounding = ROUNDING * zeros.largest(band.unit);
+    let measure = run.measure(&band.key);
+    let kind = measure.map_or("", |own| own.kind);
+    // What the run cannot tell from zero, its designs cannot either.
+    let zero = measure
+        .and_then(|own| own.error.filter(|error| own.value.is_some_and(|own| own.abs() <= *error)));
+    let rounding = zero.unwrap_or(0.0).max(ROUNDING * zeros.largest(band.unit));
     let unit = unit_of(kind, [band].into_iter(), rounding);
     let [mean, deviation, low, high] = cells(band, &unit, rounding);
     vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]

@@ -91,7 +91,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     };
     let nodes = report.assembly.nodes.iter().filter(is_shown).map(|own| NodeSeries {
         name: own.name.clone(),
-        acceleration: values(own.acceleration).into_iter().map(std::ops::Neg::neg).collect(),
+        acceleration: values(own.acceleration),
         velocity: values(own.velocity),
     });
     RunSeries {

@@ -54,6 +54,11 @@ pub(super) fn undrawn(varied: &Varied) -> Option<&'static str> {
     if figures.lines || figures.map {
         return None;
     }
+    if varied.is_of_rows() {
+        return Some(
+            "no figures: lines and maps join neighbours, and designs of a table or a sample have none",
+        );
+    }
     Some(match &varied.variations[..] {
         [_, _] | [_] if varied.variations.iter().all(Variation::is_of_words) => {
             "no figures over words alone; `dashpot run SCENE --variant …` draws curves over each other"

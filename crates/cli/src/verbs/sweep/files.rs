@@ -9,7 +9,7 @@ use super::{
     Swept, Varied,
     figures::{Figures, lines, map},
     page::page,
-    words::name,
+    words::{name, zero_within},
 };
 use crate::{
     error::CliError,
@@ -57,7 +57,9 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
     files.add_with(TABLE, |out| table(swept, out))?;
     let figures = Figures::of(&swept.varied);
     let mut drawn = Vec::new();
-    for (at, column) in swept.report.columns.iter().enumerate() {
+    let columns = swept.report.columns.iter().enumerate();
+    // There is nothing to see in what is left of zero.
+    for (at, column) in columns.filter(|own| zero_within(&swept.report, own.0).is_none()) {
         let mut add = |name: String, own: ReportFigure| {
             let added = files.add(name, &own.svg);
             drawn.push(own);

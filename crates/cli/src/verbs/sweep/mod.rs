@@ -17,7 +17,7 @@ use std::{
 
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
-    RunError,
+    Limit, RunError,
     sweep::{
         Column, Estimates, Grid, Pose, ScenePoint, SweepOptions, SweepReport, columns,
         sweep as solve,
@@ -37,10 +37,11 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
-    numbers,
+    operand::print_notes,
     origin::{self, Source},
-    output::{Study, Text, VERSION, emit, list, object},
+    output::{Pairs, Study, Text, VERSION, emit, list, object},
     progress::Bar,
+    said,
     terminal::{Terminal, note},
 };
 
@@ -143,6 +144,8 @@ struct Varied {
     variations: Vec<Variation>,
     /// The number of the scene that each variation is of.
     matched: Vec<usize>,
+    /// What the command line gives of each, where a sample was taken of it: `5..30 MN/m`.
+    ranges: Vec<String>,
     form: Form,
 }
 
@@ -180,17 +183,22 @@ impl Varied {
                 arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?
             }
         };
-        let matched = tunables.matched(&mut variations)?;
+        let flag = if arguments.points.is_some() { "--points" } else { "--vary" };
+        let matched = tunables.matched(&mut variations);
+        let matched = matched.map_err(|fault| CliError::Tunable { flag, fault })?;
         let mut form = if arguments.points.is_some() { Form::Listed } else { Form::Combined };
         if let Some(count) = arguments.sample {
             variations = Variation::sampled(&variations, count, arguments.seed);
             // They are numbers of the scene once more.
-            tunables.matched(&mut variations)?;
+            let matched = tunables.matched(&mut variations);
+            matched.map_err(|fault| CliError::Tunable { flag, fault })?;
             form = Form::Sampled;
         } else if variations.iter().any(Variation::is_of_words) && variations.len() > 1 {
             form = Grid::new(counts(&variations)).map_or(form, Form::Mixed);
         }
-        Ok(Self { tunables, variations, matched, form })
+        let range = |own: &String| own.split_once('=').map_or("", |own| own.1).trim().to_owned();
+        let ranges = arguments.vary.iter().map(range).collect();
+        Ok(Self { tunables, variations, matched, ranges, form })
     }
 
     /// Whether the values of a row go together, in place of all combinations.
@@ -273,26 +281,6 @@ struct Swept {
     table: When,
 }
 
-impl SweepArguments {
-    /// What is asked for, in words.
-    fn in_words(&self, estimates: Estimates) -> Vec<(&'static str, String)> {
-        let estimated = match estimates {
-            Estimates::All => "estimated at all points",
-            Estimates::Some => "estimated at some points",
-            Estimates::Off => "not estimated",
-        };
-        let own = [("errors", Some(estimated.to_owned()))];
-        let asked = [
-            ("method", self.method.clone()),
-            ("neglect below", self.neglect.map(numbers::share)),
-            ("most work of a point", self.budget.map(|own| own.to_string())),
-            ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),
-            ("table", self.points.as_ref().map(|own| own.display().to_string())),
-        ];
-        own.into_iter().chain(asked).filter_map(|(name, own)| Some((name, own?))).collect()
-    }
-}
-
 /// Solves a scene for many values of its parameters.
 pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<Status, CliError> {
     let input = Input::of(arguments.scene.scene.as_deref())?;
@@ -300,6 +288,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
+    print_notes(&scene.notes);
     let varied = Varied::of(arguments, &scene.text, &input.file)?;
     if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
         return Err(CliError::SetAndVaried { name: name.clone() });
@@ -316,7 +305,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         };
         let mut settings = posed.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
-        settings.limits.extend(arguments.limits.all());
+        Limit::add(&mut settings.limits, arguments.limits.all());
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
         Ok::<_, RunError>(ScenePoint { network: posed.network, settings })
     };
@@ -441,7 +430,7 @@ impl Study for Swept {
     /// Values stand in the order of the points: the last parameter varies fastest.
     fn object(&self) -> impl Serialize {
         #[derive(Serialize)]
-        struct Object<'s, P> {
+        struct Object<'s, P, W, N> {
             dashpot: &'static str,
             title: &'s Option<String>,
             file: &'s Option<String>,
@@ -450,6 +439,10 @@ impl Study for Swept {
             /// Whether their values at a point are those of one place, in place of all combinations.
             listed: bool,
             parameters: P,
+            /// What the command line asks for, in words.
+            asked: Pairs<&'s str, &'s str>,
+            scene_warnings: W,
+            scene_notes: N,
             #[serde(flatten)]
             report: &'s SweepReport,
         }
@@ -466,7 +459,22 @@ impl Study for Swept {
         let listed = self.varied.is_of_rows();
         let (title, file) = (&scene.title, &scene.file);
         let (sha256, files) = (origin::of_text(scene), origin::of_files(scene));
-        Object { dashpot: VERSION, title, file, sha256, files, listed, parameters, report }
+        let asked = self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect();
+        let (scene_warnings, scene_notes) =
+            (said::warning_objects(scene), said::note_objects(scene));
+        Object {
+            dashpot: VERSION,
+            title,
+            file,
+            sha256,
+            files,
+            listed,
+            parameters,
+            asked,
+            scene_warnings,
+            scene_notes,
+            report,
+        }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

@@ -11,7 +11,7 @@ use super::{
     titles::{capital, quantity},
     words,
 };
-use crate::{input::title, origin, output::list, sketch};
+use crate::{input::title, origin, output::list, said, sketch};
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
@@ -25,12 +25,13 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
         best_table(swept, &best),
         extremes(swept),
         points::table(swept).0,
+        Table::list("Remarks", said::notes(&swept.scene)),
     ];
     let details = [settings(swept), Table::list("How it was solved", words::solving(swept))];
     let has_rows = |table: &Table| !table.rows.is_empty();
     Report {
         title: title(&swept.scene).to_owned(),
-        warnings: words::warned(swept),
+        warnings: list(said::warnings(&swept.scene, &[]).into_iter().chain(words::warned(swept))),
         verdict: verdict(swept, &best),
         network: sketch::figure(&swept.scene),
         tables: tables.into_iter().filter(has_rows).collect(),

@@ -44,7 +44,11 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
             let (value, error) = (report.values[at], report.errors[at]);
             let error = Some(error).filter(|own| own.is_finite());
             let text = || unit.number(value, digits(value, error, MOST_DIGITS));
-            if value.is_finite() { text() } else { NONE.to_owned() }
+            match value {
+                own if !own.is_finite() => NONE.to_owned(),
+                own if error.is_some_and(|error| own.abs() <= error) => "0".to_owned(),
+                _ => text(),
+            }
         });
         let judged = judged.iter().map(|own| own[point].map_or(NONE, Judgement::word).to_owned());
         list(own.chain(values).chain(judged))

@@ -8,14 +8,39 @@ use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 use dashpot_scene::{Remark, Variation, units::si_unit};
 
-use super::{Form, Swept, Varied};
+use super::{Form, SweepArguments, Swept, Varied};
 use crate::{
-    numbers::{Unit, apart, bound, duration, estimate, significant},
+    numbers::{self, Unit, apart, bound, duration, estimate, significant},
+    output::list,
     verbs::run::{level, unit_of_kind},
 };
 
 /// Digits of what is computed.
 const DIGITS: usize = 5;
+
+impl SweepArguments {
+    /// What is asked for, in words.
+    pub(super) fn in_words(&self, estimates: Estimates) -> Vec<(&'static str, String)> {
+        let estimated = match estimates {
+            Estimates::All => "estimated at all points",
+            Estimates::Some => "estimated at some points",
+            Estimates::Off => "not estimated",
+        };
+        let own = [("errors", Some(estimated.to_owned()))];
+        let set = self.scene.values.set.iter();
+        let set = list(set.map(|(name, value)| format!("{name}={value}")));
+        let asked = [
+            ("method", self.method.clone()),
+            ("neglect below", self.neglect.map(numbers::share)),
+            ("most work of a point", self.budget.map(|own| own.to_string())),
+            ("vary", (!self.vary.is_empty()).then(|| self.vary.join("; "))),
+            ("set", (!set.is_empty()).then(|| set.join("; "))),
+            ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),
+            ("table", self.points.as_ref().map(|own| own.display().to_string())),
+        ];
+        own.into_iter().chain(asked).filter_map(|(name, own)| Some((name, own?))).collect()
+    }
+}
 
 impl Swept {
     /// SI unit of a parameter.
@@ -52,7 +77,7 @@ impl Swept {
 
     /// One line for each parameter.
     pub(super) fn in_words(&self) -> Vec<String> {
-        let line = |(own, &at): (&Variation, &usize)| {
+        let line = |(place, (own, &at)): (usize, (&Variation, &usize))| {
             let last = own.len() - 1;
             let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
             let path = &self.varied.tunables.all()[at].path;
@@ -62,7 +87,10 @@ impl Swept {
             match self.varied.form {
                 Form::Listed => return format!("{name}{path}: by the table; {shown} in the scene"),
                 Form::Sampled => {
-                    return format!("{name}{path}: by a Latin hypercube; {shown} in the scene");
+                    let range = &self.varied.ranges[place];
+                    return format!(
+                        "{name}{path}: a Latin hypercube of {range}; {shown} in the scene"
+                    );
                 }
                 Form::Combined | Form::Mixed(_) => {}
             }
@@ -76,7 +104,8 @@ impl Swept {
                 own.text(last),
             )
         };
-        self.varied.variations.iter().zip(&self.varied.matched).map(line).collect()
+        let all = self.varied.variations.iter().zip(&self.varied.matched);
+        all.enumerate().map(line).collect()
     }
 }
 
@@ -100,6 +129,27 @@ pub(super) fn told(report: &SweepReport) -> Vec<usize> {
             && strains.any(|(other, _)| report.column(at).zip(report.column(other)).all(is_same))
     };
     all.filter(|at| !is_repeated(*at, &report.columns[*at])).collect()
+}
+
+/// Within how much a column is zero at all points that have a value; `None` where it is not, or errors are not known.
+pub(super) fn zero_within(report: &SweepReport, column: usize) -> Option<f64> {
+    let both = report.column(column).zip(report.errors_of(column));
+    let mut known = both.filter(|own| own.0.is_finite()).peekable();
+    known.peek()?;
+    let is_zero = |(value, error): (f64, f64)| (value.abs() <= error).then_some(error);
+    known.map(is_zero).try_fold(0.0, |most: f64, own| Some(most.max(own?)))
+}
+
+/// The columns that are zero at all points.
+fn zeros(report: &SweepReport) -> impl Iterator<Item = String> {
+    report.columns.iter().enumerate().filter_map(|(at, own)| {
+        let error = zero_within(report, at)?;
+        Some(format!(
+            "`{}` is zero within {} at all points",
+            name(own),
+            unit(own, error).text(error, 2)
+        ))
+    })
 }
 
 /// The unit in which values of a column are read that are as large as this one.
@@ -225,6 +275,7 @@ const MOST_WARNED: usize = 8;
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let mut all = kept(swept);
+    all.extend(zeros(report));
     all.extend(means(swept));
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));

@@ -42,14 +42,14 @@ struct Document {
 #[derive(Debug)]
 pub(crate) struct Library {
     documents: Vec<Document>,
-    /// The files of numbers by their paths, `None` where one could not be read.
-    tables: HashMap<String, Option<TableFile>>,
+    /// The files of numbers by their paths, or why one could not be read.
+    tables: HashMap<String, Result<TableFile, String>>,
     /// Index of the document of each path that was asked for, `None` where it could not be read.
     files: HashMap<String, Option<usize>>,
 }
 
 impl Library {
-    /// The document `root` of the file `path`, and all files that its models refer to.
+    /// The document `root` of the file `path`, and all files that its models and curves refer to.
     pub(crate) fn load(
         path: &str,
         root: Item,
@@ -70,13 +70,14 @@ impl Library {
         let known: Vec<&Values> =
             library.documents.iter().map(|document| &document.values).collect();
         overrides.check(&known, faults);
+        library.load_tables(loader, faults);
         library
     }
 
     /// The paths of all other files that were read, in order of their names.
     pub(crate) fn paths(&self) -> Vec<String> {
         let models = self.files.iter().filter(|own| own.1.is_some()).map(|own| own.0);
-        let tables = self.tables.iter().filter(|own| own.1.is_some()).map(|own| own.0);
+        let tables = self.tables.iter().filter(|own| own.1.is_ok()).map(|own| own.0);
         let mut all: Vec<String> = models.chain(tables).cloned().collect();
         all.sort_unstable();
         all.dedup();

@@ -25,6 +25,8 @@ use crate::{
 
 /// The key of a file of numbers.
 pub(crate) const FILE: &str = "file";
+/// The key of what its forces, stresses or values are multiplied by.
+pub(crate) const SCALE: &str = "scale";
 
 /// A file of numbers that points are read from.
 #[derive(Debug)]
@@ -66,17 +68,24 @@ pub(crate) struct Files<'d> {
 }
 
 impl<'d> Files<'d> {
-    /// The file of this path as seen from the document; `None` where it could not be read.
-    pub(crate) fn get(self, path: &str) -> Option<&'d TableFile> {
-        let document = self.library.documents.get(self.document)?;
-        self.library.tables.get(&beside(&document.path, path))?.as_ref()
+    /// The file of this path, which stands at `place`, as seen from the document; `None` with a fault where it
+    /// could not be read.
+    pub(crate) fn get(self, path: &str, place: Place, faults: &Faults) -> Option<&'d TableFile> {
+        let path = beside(&self.library.documents.get(self.document)?.path, path);
+        let reason = match self.library.tables.get(&path) {
+            Some(Ok(file)) => return Some(file),
+            Some(Err(reason)) => reason.clone(),
+            None => "it was not looked for".to_owned(),
+        };
+        faults.error(place, Fault::Unloadable { path, reason });
+        None
     }
 }
 
 impl Library {
-    /// Reads the files of numbers that the documents name.
-    pub(crate) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
-        for (path, place) in self.tables_wanted() {
+    /// Reads the files of numbers that the documents name. One that cannot be read is a fault where it is used.
+    pub(super) fn load_tables(&mut self, loader: Option<Loader<'_>>, faults: &Faults) {
+        for path in self.tables_wanted() {
             if self.tables.contains_key(&path) {
                 continue;
             }
@@ -91,24 +100,19 @@ impl Library {
                 0..=MAX_BYTES => Ok(bytes),
                 count => Err(format!("it has {count} bytes; the limit is 64 MB")),
             });
-            let file = match bytes {
-                Ok(bytes) => {
-                    let source = Arc::new(Source::new(&*path, &*table_text(&bytes)));
-                    let number = faults.add_source(Arc::clone(&source));
-                    Some(TableFile { number, source, remarks: RefCell::default() })
-                }
-                Err(reason) => {
-                    faults.error(place, Fault::Unloadable { path: path.clone(), reason });
-                    None
-                }
-            };
+            let file = bytes.map(|bytes| {
+                let source = Arc::new(Source::new(&*path, &*table_text(&bytes)));
+                let number = faults.add_source(Arc::clone(&source));
+                TableFile { number, source, remarks: RefCell::default() }
+            });
             self.tables.insert(path, file);
         }
     }
 
     /// What became of the files of numbers.
     pub(crate) fn table_notes(&self) -> Vec<ModelNote> {
-        let mut files: Vec<&TableFile> = self.tables.values().flatten().collect();
+        let mut files: Vec<&TableFile> =
+            self.tables.values().filter_map(|own| own.as_ref().ok()).collect();
         files.sort_by_key(|file| file.number);
         let notes = files.into_iter().flat_map(|file| {
             let subject = format!("file `{}`", file.source.name);
@@ -122,9 +126,8 @@ impl Library {
         notes.collect()
     }
 
-    /// The paths in `table-spring = "path"` and `table-spring = { file = "path" }` anywhere in a document, with
-    /// their places.
-    fn tables_wanted(&self) -> Vec<(String, Place)> {
+    /// The paths in `table-spring = "path"` and `table-spring = { file = "path" }` anywhere in a document.
+    fn tables_wanted(&self) -> Vec<String> {
         let words = words_of_points();
         let mut wanted = Vec::new();
         for document in &self.documents {
@@ -136,7 +139,7 @@ impl Library {
                 for entry in item.table().unwrap_or(&[]) {
                     let is_file = entry.key == FILE || words.contains(&entry.key.as_str());
                     match entry.item.text().filter(|_| is_file) {
-                        Some(path) => wanted.push((beside(&document.path, path), entry.item.place)),
+                        Some(path) => wanted.push(beside(&document.path, path)),
                         None => queue.push_back(&entry.item),
                     }
                 }
@@ -171,7 +174,7 @@ fn words_of_points() -> HashSet<&'static str> {
 /// Whether points are given by `item` as a file.
 pub(crate) fn names_file(item: &Item) -> bool {
     let has_file = |entries: &[Entry]| {
-        entries.iter().any(|entry| [FILE, "columns", "units"].contains(&entry.key.as_str()))
+        entries.iter().any(|entry| [FILE, "columns", "units", SCALE].contains(&entry.key.as_str()))
     };
     item.text().is_some() || item.table().is_some_and(has_file)
 }
