@@ -52,7 +52,7 @@ fn scenes_stand_side_by_side_each_with_its_verdict() {
     let figure = fs::read_to_string(results.join("acceleration-time.svg")).unwrap();
     assert!(figure.contains("soft") && figure.contains("stiff"));
     let rows = |name: &str| fs::read_to_string(results.join(name)).unwrap().lines().count();
-    assert_eq!((rows("1.csv"), rows("2.csv")), (502, 502));
+    assert_eq!((rows("1-soft.csv"), rows("2-stiff.csv")), (502, 502));
 }
 
 #[test]

@@ -70,9 +70,10 @@ impl ScatterFault {
             }
             Self::PartOrPoints { of, points, is_percent, .. } => {
                 let part = handy(0.01 * points * of.abs());
-                let part = match is_percent {
-                    true => format!("({of} ± {part}) %"),
-                    false => format!("{of} ± {part}"),
+                let part = if *is_percent {
+                    format!("({of} ± {part}) %")
+                } else {
+                    format!("{of} ± {part}")
                 };
                 format!(
                     "write \"{part}\" where {points} % of {of} are meant, or \"({of} ± {points}) %\" where both \
