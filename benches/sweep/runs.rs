@@ -13,7 +13,7 @@ pub(crate) fn runs() {
     for accuracy in [1e-3, 1e-6] {
         let rtol = tolerance_by_hand(accuracy);
         let scene = foam::scene(HEIGHT);
-        let with = |estimate| {
+        let with = |estimate: bool| {
             let accuracy = Accuracy::of_all(accuracy);
             let rtol = (!estimate).then_some(rtol);
             let settings = SolveSettings { accuracy, estimate, rtol, ..scene.settings.clone() };

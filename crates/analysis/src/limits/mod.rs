@@ -162,7 +162,9 @@ impl Limit {
     /// Adds further ones to some, but for those that are among them.
     pub fn add(all: &mut Vec<Self>, further: impl IntoIterator<Item = Self>) {
         for own in further {
-            let is_same = |known: &Self| known.key == own.key && known.bound == own.bound;
+            let is_same = |known: &Self| {
+                (&known.key, known.bound, known.of_mean) == (&own.key, own.bound, own.of_mean)
+            };
             if !all.iter().any(is_same) {
                 all.push(own);
             }
