@@ -90,6 +90,10 @@ struct Propagation<'p, const N: usize> {
     most: [f64; N],
     /// Of the force and of the deformation.
     peaks: [Peak; 2],
+    /// Whether the force rises to one place and falls behind it, as far as its rates at the nodes tell; either may be
+    /// missing.
+    is_hump: bool,
+    has_top: bool,
     /// The lowest turn of the force and the least deformation.
     lowest: f64,
     shallowest: f64,
@@ -142,6 +146,8 @@ impl<'p, const N: usize> Propagation<'p, N> {
             seen,
             most,
             peaks: [peak(seen[0]), peak(seen[3])],
+            is_hump: true,
+            has_top: false,
             lowest: f64::INFINITY,
             shallowest: 0.0,
             fall: 0.0,
@@ -185,6 +191,11 @@ impl<'p, const N: usize> Propagation<'p, N> {
             let end = self.start() + self.step;
             self.peaks[0].meet(found[0], end);
             self.peaks[1].meet(found[3], end);
+        }
+        if self.recorder.is_some() {
+            let turns = flanks[0].rises_then_falls();
+            self.is_hump &= if turns { !self.has_top } else { flanks[0].is_steady(self.step) };
+            self.has_top |= turns;
         }
         let start = self.start();
         for ((peak, flank), place) in self.peaks.iter_mut().zip(&flanks).zip([0, 3]) {
@@ -259,6 +270,7 @@ impl<'p, const N: usize> Propagation<'p, N> {
             force: figure(force.value, noise),
             depth: figure(depth.value, grown * size(self.scene_point.deformation, &self.most)),
             deepest_at: depth.time,
+            top: self.is_hump.then_some(force.time),
             release: figure(release, release_error),
             restitution: figure(restitution, moved / self.meeting.abs()),
             ..Impact::default()

@@ -50,6 +50,8 @@ impl Figure {
 pub(super) struct Impact {
     /// The largest force \[N\].
     pub(super) force: Figure,
+    /// When it is reached, where the force rises up to then, if it does, and falls behind.
+    pub(super) top: Option<f64>,
     /// The largest deformation \[m\].
     pub(super) depth: Figure,
     /// When it is reached.

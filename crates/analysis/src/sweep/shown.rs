@@ -15,7 +15,11 @@ use super::{
 };
 use crate::{
     Compression,
-    measures::{STANDARD_GRAVITY, hic_search::optimum, selection::Selected},
+    measures::{
+        STANDARD_GRAVITY,
+        hic_search::{optimum, optimum_of_hump},
+        selection::Selected,
+    },
 };
 
 /// What a column shows of an impact.
@@ -160,7 +164,11 @@ impl Plan<'_> {
             Shown::Hic(cap) => {
                 let Some(force) = &impact.course else { return Figure::UNKNOWN };
                 let unit = mass * STANDARD_GRAVITY;
-                let found = optimum(force, (0.0, impact.release.value), cap / time);
+                let (window, cap) = ((0.0, impact.release.value), cap / time);
+                let found = match impact.top {
+                    Some(top) => optimum_of_hump(force, window, top, cap),
+                    None => optimum(force, window, cap),
+                };
                 let length = found.interval.1 - found.interval.0;
                 let growth = 2.5 * (found.value / length).powf(0.6) * length;
                 let error = growth * impact.force.error + found.threshold;

@@ -21,10 +21,13 @@ pub(super) struct Area<'a> {
 #[derive(Debug)]
 struct Part<'a> {
     panel: &'a Panel,
-    /// Coefficients of the panel's antiderivative, with the sign that the signal has.
+    /// Coefficients of the panel's antiderivative.
     antiderivative: Coefficients,
-    /// Where the part begins \[s\].
+    /// The sign of the signal.
+    sign: f64,
+    /// Where the part begins \[s\], and `|s|` there.
     start: f64,
+    height: f64,
     /// Value of the antiderivative there.
     offset: f64,
     /// Area before the part.
@@ -35,7 +38,7 @@ impl Part<'_> {
     fn area_until(&self, t: f64) -> f64 {
         let half = 0.5 * self.panel.length();
         let value = chebyshev::evaluate(&self.antiderivative, self.panel.place(t));
-        self.before + (half * (value - self.offset)).max(0.0)
+        self.before + (self.sign * half * (value - self.offset)).max(0.0)
     }
 }
 
@@ -68,6 +71,18 @@ impl<'a> Area<'a> {
         }
     }
 
+    /// That of a signal that is positive in the window and rises to one place, if any, and falls behind it.
+    pub(super) fn of_hump(signal: &'a Signal, window: (f64, f64), top: f64) -> Self {
+        let mut knots = vec![window.0, top, window.1];
+        knots.dedup();
+        Self {
+            knots,
+            borders: vec![window.0, window.1],
+            parts: parts(signal, window, &[]),
+            largest: signal.value(top),
+        }
+    }
+
     /// Where the monotone pieces meet, and both ends.
     pub(super) fn knots(&self) -> &[f64] {
         &self.knots
@@ -94,6 +109,19 @@ impl<'a> Area<'a> {
     pub(super) fn height(&self, t: f64) -> f64 {
         let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
         self.parts.get(at).map_or(0.0, |part| part.panel.value(t).abs())
+    }
+
+    /// Neighbours among both ends and the parts between them, between which `|s|` passes a level, each with `|s|`:
+    /// it is monotone between the ends, and on different sides of the level there.
+    pub(super) fn around(&self, level: f64, [first, last]: [(f64, f64); 2]) -> [(f64, f64); 2] {
+        let rises = last.1 > first.1;
+        let from = self.parts.partition_point(|part| part.start <= first.0);
+        let to = self.parts.partition_point(|part| part.start < last.0);
+        let inside = self.parts.get(from..to).unwrap_or_default();
+        let at = inside.partition_point(|part| (part.height < level) == rises);
+        let place = |part: &Part<'_>| (part.start, part.height);
+        let before = at.checked_sub(1).map_or(first, |before| place(&inside[before]));
+        [before, inside.get(at).map_or(last, place)]
     }
 
     /// The area from `from` to `to`.
@@ -130,18 +158,18 @@ fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<
         if start >= end {
             continue;
         }
-        let antiderivative = chebyshev::antiderivative(&panel.coefficients);
-        let mut places = vec![start];
         let first = zeros.partition_point(|zero| *zero <= start);
-        places.extend(zeros[first..].iter().take_while(|zero| **zero < end));
-        places.push(end);
-        for pair in places.windows(2) {
-            let sign = panel.value(0.5 * (pair[0] + pair[1])).signum();
-            let antiderivative: Coefficients = antiderivative.iter().map(|c| sign * c).collect();
-            let offset = chebyshev::evaluate(&antiderivative, panel.place(pair[0]));
-            let part = Part { panel, antiderivative, start: pair[0], offset, before };
-            before = part.area_until(pair[1]);
+        let inside = zeros[first..].iter().copied().take_while(|zero| *zero < end);
+        let mut from = start;
+        for to in inside.chain([end]) {
+            let antiderivative = chebyshev::antiderivative(&panel.coefficients);
+            let sign = panel.value(0.5 * (from + to)).signum();
+            let offset = chebyshev::evaluate(&antiderivative, panel.place(from));
+            let height = panel.value(from).abs();
+            let part = Part { panel, antiderivative, sign, start: from, height, offset, before };
+            before = part.area_until(to);
             parts.push(part);
+            from = to;
         }
     }
     parts

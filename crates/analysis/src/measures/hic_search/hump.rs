@@ -4,91 +4,119 @@
 //! with the level while `c` is below 0.6 times the mean `m(c)`. So the search is one for the level, where
 //! `c = 0.6 m(c)`, or where the interval is as long as the cap.
 
-use std::convert::Infallible;
-
 use dashpot_numerics::roots::false_position;
 
 use super::{Optimum, area::Area, criterion};
 
 /// Levels at which it is looked whether there is one such place.
 const LEVELS: usize = 16;
-/// What is left of a bracket of levels or times, in parts of the upper end: the criterion is stationary.
-const NARROW: f64 = 1e-10;
+/// How near the signal is to a level at the ends of its interval, in parts of its range: where the sign of a difference
+/// is asked for …
+const ROUGH: f64 = 1e-4;
+/// … and at the optimum, where the criterion is stationary.
+const NEAR: f64 = 1e-9;
+/// What is left of a bracket in which nothing comes so near, in parts of its upper end.
+const NARROW: f64 = 1e-12;
 
-/// The optimum, where the signal rises to one place and falls behind it, and one level alone may be that of the
-/// optimum, as far as [`LEVELS`] of them tell.
+/// The optimum, where the signal rises to one place and falls behind it, or does one of both, and one level alone
+/// may be that of the optimum, as far as [`LEVELS`] of them tell.
 pub(super) fn optimum(area: &Area<'_>, cap: f64) -> Option<Optimum> {
-    let &[start, top, end] = area.knots() else { return None };
-    let [first, highest, last] = [start, top, end].map(|time| area.height(time));
-    if !(highest > first && highest > last) {
-        return None;
-    }
-    let hump = Hump { area, start, top, end };
-    let lowest = first.min(last);
-    let level = |at: usize| lowest + (highest - lowest) * at as f64 / LEVELS as f64;
+    let hump = Hump::of(area)?;
+    let (lowest, highest) = (hump.ends[0].1.min(hump.ends[1].1), hump.top.1);
+    let range = highest - lowest;
+    let level = |at: usize| lowest + range * at as f64 / LEVELS as f64;
     // The highest level has no interval of any length; there it is the mean itself.
-    let slack = |at: usize| if at < LEVELS { hump.slack(level(at)) } else { 0.4 * highest };
+    let slack =
+        |at: usize| if at < LEVELS { hump.slack(level(at), ROUGH * range) } else { 0.4 * highest };
     let slacks: [f64; LEVELS + 1] = std::array::from_fn(slack);
     let turn = slacks.iter().position(|slack| *slack > 0.0)?;
     if slacks[turn..].iter().any(|slack| *slack <= 0.0) {
         return None;
     }
+    let near = NEAR * range;
     let mut best = lowest;
     if turn > 0 {
         let at = |at: usize| (level(at), slacks[at]);
-        best = root(at(turn - 1), at(turn), |level| hump.slack(level));
+        best = root(at(turn - 1), at(turn), near, |level| hump.slack(level, near));
     }
-    let mut interval = hump.above(best);
+    let mut interval = hump.above(best, near);
     if interval.1 - interval.0 > cap {
         let excess = |level: f64| {
-            let interval = hump.above(level);
+            let interval = hump.above(level, near);
             interval.1 - interval.0 - cap
         };
-        interval = hump.above(root((best, excess(best)), (highest, -cap), excess));
-        // To the last digit as long as the cap.
-        interval.1 = (interval.0 + cap).min(end);
+        let level = root((best, excess(best)), (highest, -cap), NEAR * cap, excess);
+        let (from, to) = hump.above(level, near);
+        // To the last digit as long as the cap, and where it begins or ends with the window there.
+        let end = hump.ends[1].0;
+        interval = if to < end { (from, from + cap) } else { (end - cap, end) };
     }
     let value = criterion(area.between(interval.0, interval.1), interval.1 - interval.0);
     Some(Optimum { value, interval, threshold: 0.0 })
 }
 
-/// Where a function passes zero between two places at which it has different signs.
-fn root(start: (f64, f64), end: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    let found = false_position(|x| Ok::<f64, Infallible>(f(x)), start, end, NARROW);
-    match found {
+/// Where a function passes zero between two places at which it has different signs: as soon as it is as `near`.
+fn root(start: (f64, f64), end: (f64, f64), near: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let looked_at = |x: f64| {
+        let value = f(x);
+        if value.abs() <= near { Err(x) } else { Ok(value) }
+    };
+    match false_position(looked_at, start, end, NARROW) {
+        Err(found) => found,
         Ok([one, other]) if one.1.abs() < other.1.abs() => one.0,
         Ok([_, other]) => other.0,
-        Err(never) => match never {},
     }
 }
 
-/// A signal that rises and falls.
+/// A signal that rises and falls, or does one of both, by times and heights.
 struct Hump<'h, 'a> {
     area: &'h Area<'a>,
-    start: f64,
-    top: f64,
-    end: f64,
+    ends: [(f64, f64); 2],
+    top: (f64, f64),
 }
 
-impl Hump<'_, '_> {
-    /// Where it is above a level.
-    fn above(&self, level: f64) -> (f64, f64) {
+impl<'h, 'a> Hump<'h, 'a> {
+    fn of(area: &'h Area<'a>) -> Option<Self> {
+        let at = |time: f64| (time, area.height(time));
+        let hump = match *area.knots() {
+            // At a jump it is not the height that is on both sides.
+            [start, top, end] if !area.is_border(top) => {
+                Self { area, ends: [at(start), at(end)], top: at(top) }
+            }
+            [start, end] => {
+                let ends = [at(start), at(end)];
+                let top = if ends[0].1 > ends[1].1 { ends[0] } else { ends[1] };
+                Self { area, ends, top }
+            }
+            _ => return None,
+        };
+        let [first, last] = hump.ends.map(|end| end.1);
+        let top = hump.top.1;
+        (top >= first && top >= last && top > first.min(last)).then_some(hump)
+    }
+
+    /// Where it is above a level, the ends as near to it as `near`.
+    fn above(&self, level: f64, near: f64) -> (f64, f64) {
         let over = |time: f64| self.area.height(time) - level;
-        let highest = over(self.top);
-        let side = |end: f64| {
-            let (own, top) = ((end, over(end)), (self.top, highest));
-            match own {
-                (_, over) if over >= 0.0 => end,
-                _ if end < self.top => root(own, top, over),
-                _ => root(top, own, over),
+        let side = |end: (f64, f64)| {
+            if end.1 >= level {
+                return end.0;
+            }
+            let sides = if end.0 < self.top.0 { [end, self.top] } else { [self.top, end] };
+            let [before, after] =
+                self.area.around(level, sides).map(|(time, height)| (time, height - level));
+            match [before.1.abs() <= near, after.1.abs() <= near] {
+                [true, _] => before.0,
+                [_, true] => after.0,
+                _ => root(before, after, near, over),
             }
         };
-        (side(self.start), side(self.end))
+        (side(self.ends[0]), side(self.ends[1]))
     }
 
     /// `c − 0.6 m(c)`.
-    fn slack(&self, level: f64) -> f64 {
-        let (from, to) = self.above(level);
+    fn slack(&self, level: f64, near: f64) -> f64 {
+        let (from, to) = self.above(level, near);
         level - 0.6 * self.area.between(from, to) / (to - from)
     }
 }

@@ -45,6 +45,13 @@ pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum 
     searched(&area, window, cap)
 }
 
+/// The same for a signal that is positive in the window and rises to one place, and falls behind it; either may be
+/// missing.
+pub(crate) fn optimum_of_hump(signal: &Signal, window: (f64, f64), top: f64, cap: f64) -> Optimum {
+    let area = Area::of_hump(signal, window, top);
+    hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap))
+}
+
 /// The same by a search through all intervals.
 fn searched(area: &Area<'_>, window: (f64, f64), cap: f64) -> Optimum {
     let mut search = Search {

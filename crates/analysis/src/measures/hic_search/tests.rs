@@ -155,11 +155,13 @@ fn a_pulse_in_thousands_of_pieces_has_the_interval_that_it_has_in_one() {
 fn the_level_of_a_single_hump_and_the_search_through_all_intervals_agree() {
     // Half sines, bells, and humps that lean, cut at their feet or not, with caps that hold and that do not.
     type Hump = (&'static str, fn(f64) -> f64);
-    let humps: [Hump; 5] = [
+    let humps: [Hump; 7] = [
         ("half sine", |t| (PI * t).sin()),
         ("leaning", |t| t * (1.0 - t) * (-3.0 * t).exp()),
         ("bell", |t| (-20.0 * (t - 0.4).powi(2)).exp()),
         ("upon a step", |t| 0.5 + (PI * t).sin()),
+        ("falling", |t| (-2.0 * t).exp()),
+        ("rising", |t| t * (3.0 - t)),
         ("steep at first", |t| (1.0 - t) * (1.0 + t) + 0.3 * (2.0 * t).sin()),
     ];
     for (name, hump) in humps {
@@ -174,7 +176,22 @@ fn the_level_of_a_single_hump_and_the_search_through_all_intervals_agree() {
             );
             let length = |own: Optimum| own.interval.1 - own.interval.0;
             close(length(own), length(all), 1e-6);
+            let top = pulse.maximum((0.0, 1.0)).time;
+            let known = optimum_of_hump(&pulse, (0.0, 1.0), top, cap);
+            close(known.value / own.value, 1.0, 1e-12);
         }
+    }
+}
+
+#[test]
+fn a_ramp_that_ends_with_a_jump_is_its_own_interval_in_part() {
+    // Rounding after the jump is no hump. Of a ramp T long up to A, the best begins at 3/7 of it.
+    let ramp = Panel { start: 0.0, end: 1.0, coefficients: [0.5, 0.5].into() };
+    for after in [0.0, 1e-17, -1e-17] {
+        let rest = Panel::constant(1.0, 2.0, after);
+        let found = optimum(&Signal::new(vec![ramp.clone(), rest], None, 0.0), (0.0, 2.0), 1e9);
+        close(found.value, 4.0 / 7.0 * (5.0_f64 / 7.0).powf(2.5), 1e-12);
+        close(found.interval.0, 3.0 / 7.0, 1e-6);
     }
 }
 
