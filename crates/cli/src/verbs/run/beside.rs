@@ -155,7 +155,7 @@ pub(super) struct Beside {
 impl MeasuredCurve {
     fn read(argument: &str, shift: f64, assembly: &Assembly) -> Result<Self, CliError> {
         let (name, column, output) = parts(argument);
-        let file = MeasuredFile::read(name)?;
+        let file = MeasuredFile::read("--measured", name)?;
         let known = Output::all(assembly);
         let wanted = output.map(|wanted| {
             let found = known.iter().find(|own| own.key() == wanted).cloned();
@@ -193,7 +193,11 @@ impl MeasuredCurve {
 
     /// How far a run is from it.
     pub(super) fn beside(&self, run: &RunReport) -> Result<Beside, CliError> {
-        let unlike = |reason: String| CliError::MeasuredColumn { file: self.file.clone(), reason };
+        let unlike = |reason: String| CliError::MeasuredColumn {
+            flag: "--measured",
+            file: self.file.clone(),
+            reason,
+        };
         let place = self.output.place(&run.assembly);
         let kept = place.filter(|own| run.trajectory.keeps(&run.assembly.system, own.0));
         let Some((output, sign)) = kept else {
