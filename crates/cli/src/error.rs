@@ -136,8 +136,8 @@ pub(crate) enum CliError {
     #[error("`--to {text}`: {reason}")]
     Fit { text: String, reason: String },
     /// An output that a scene does not have, or that cannot be measured.
-    #[error("`--measured {file}`: there is no `{name}` over time to stand beside")]
-    NotMeasurable { file: String, name: String, known: Vec<String> },
+    #[error("`{flag} {file}`: there is no `{name}` over time to stand beside")]
+    NotMeasurable { flag: &'static str, file: String, name: String, known: Vec<String> },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },

@@ -70,7 +70,7 @@ pub(crate) enum Command {
     Cost(cost::CostArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
-    /// Fits models to relaxation, creep and oscillation that were measured, and says what these cannot tell.
+    /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
     Fit(fit::FitArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
     Vibrate(vibrate::VibrateArguments),

@@ -72,17 +72,14 @@ impl Dense {
             if *value <= 0.0 {
                 continue;
             }
-            match branches.last_mut().filter(|_| last == Some(at - 1)) {
-                // Where it is the third one in a row, it begins another.
-                Some(own) => {
-                    let sum = own.1 + value;
-                    *own = (((own.1 * own.0.ln() + value * time.ln()) / sum).exp(), sum);
-                    last = None;
-                }
-                None => {
-                    branches.push((time, *value));
-                    last = Some(at);
-                }
+            if let Some(own) = branches.last_mut().filter(|_| last == Some(at - 1)) {
+                let sum = own.1 + value;
+                *own = (((own.1 * own.0.ln() + value * time.ln()) / sum).exp(), sum);
+                // Where a third one follows, it begins another.
+                last = None;
+            } else {
+                branches.push((time, *value));
+                last = Some(at);
             }
         }
         Spectrum { spring: minimum.values[SPRING], dashpot: minimum.values[DASHPOT], branches }

@@ -4,7 +4,7 @@ use dashpot_fit::linear::Record;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::DataTable;
 
-use crate::{error::CliError, measured::MeasuredFile, output::list};
+use crate::{args::assignment, error::CliError, measured::MeasuredFile, output::list};
 
 /// The option, for messages.
 pub(super) const FLAG: &str = "--to";
@@ -21,13 +21,18 @@ pub(super) struct Asked {
     columns: Vec<String>,
     /// A model, or an output of a scene.
     pub(super) target: String,
+    /// What is set for this test alone.
+    pub(super) set: Vec<(String, String)>,
 }
 
 /// Reads one.
 pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let help = "write a file, its columns and a model, such as \"relax.csv:G=felt\" or \
-                \"dma.csv:E',E''=felt\"";
-    let (left, target) = text.rsplit_once('=').ok_or(help)?;
+                \"dma.csv:E',E''=felt\", or an output of a scene, such as \"drop.csv:force=pad.force\"";
+    let (left, right) = text.split_once('=').ok_or(help)?;
+    let mut right = right.split(',');
+    let target = right.next().unwrap_or_default();
+    let set = right.map(assignment).collect::<Result<_, _>>()?;
     let (file, columns) = left.rsplit_once(':').ok_or(help)?;
     let columns = list(columns.split(',').map(|own| own.trim().to_owned()));
     let (file, target) = (file.trim(), target.trim());
@@ -35,7 +40,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
         return Err(help.to_owned());
     }
     let (file, target) = (file.to_owned(), target.to_owned());
-    Ok(Asked { text: text.trim().to_owned(), file, columns, target })
+    Ok(Asked { text: text.trim().to_owned(), file, columns, target, set })
 }
 
 /// A record of a file.
@@ -52,16 +57,21 @@ pub(super) struct Measured {
 }
 
 impl Asked {
+    /// File, column and output, as for a curve beside a run.
+    pub(super) fn measured_as(&self) -> String {
+        format!("{}:{}={}", self.file, self.columns.join(","), self.target)
+    }
+
     /// The record in the file, without rows behind a time \[s\].
     pub(super) fn measured(&self, until: Option<f64>) -> Result<Measured, CliError> {
         let file = MeasuredFile::read(FLAG, &self.file)?;
         let table = file.table()?;
         let columns = self.positions(&file, &table)?;
-        let found = Columns { file: &file, table: &table, columns };
+        let found = Columns { file: &file, table: &table, answers: columns };
         let frequency = file.only(&table, Dimension::FREQUENCY)?;
         let time = file.only(&table, Dimension::TIME)?;
         let (mut record, is_material, what) = match (frequency, time) {
-            (Some(frequency), _) if found.columns.len() == 2 || time.is_none() => {
+            (Some(frequency), _) if found.answers.len() == 2 || time.is_none() => {
                 found.oscillation(frequency, &self.columns)?
             }
             (_, Some(time)) => found.over_time(time)?,
@@ -94,9 +104,10 @@ impl Asked {
         if !self.columns.iter().any(is_named) {
             let symbols: Vec<&str> = list(self.columns.iter().map(String::as_str));
             let meant = match symbols[..] {
-                ["G" | "E" | "K"] => measuring(moduli),
                 ["J" | "D"] => measuring(compliances),
-                ["G'" | "E'" | "K'", "G''" | "E''" | "K''"] => measuring(moduli),
+                ["G" | "E" | "K"] | ["G'" | "E'" | "K'", "G''" | "E''" | "K''"] => {
+                    measuring(moduli)
+                }
                 _ => Vec::new(),
             };
             if meant.len() == self.columns.len() {
@@ -130,7 +141,7 @@ fn cut(record: &mut Record, lines: &mut Vec<usize>, until: f64) {
 struct Columns<'f, 't> {
     file: &'f MeasuredFile,
     table: &'f DataTable<'t>,
-    columns: Vec<usize>,
+    answers: Vec<usize>,
 }
 
 /// A record, whether it is that of a material, and what it is.
@@ -154,9 +165,9 @@ impl Columns<'_, '_> {
 
     /// Moduli over frequency.
     fn oscillation(&self, frequency: usize, symbols: &[String]) -> Result<Found, CliError> {
-        let dimension = self.dimension(self.columns[0])?;
+        let dimension = self.dimension(self.answers[0])?;
         if ![Dimension::PRESSURE, Dimension::STIFFNESS].contains(&dimension) {
-            let name = self.name(self.columns[0]);
+            let name = self.name(self.answers[0]);
             return Err(self.file.unclear(format!(
                 "column `{name}` over frequency is neither a modulus (Pa) nor a stiffness (N/m)"
             )));
@@ -164,9 +175,9 @@ impl Columns<'_, '_> {
         let is_material = dimension == Dimension::PRESSURE;
         let omegas = self.numbers(frequency, Dimension::FREQUENCY)?;
         let omegas: Vec<f64> = list(omegas.into_iter().map(|own| own * std::f64::consts::TAU));
-        let values = self.columns.iter().map(|own| self.numbers(*own, dimension));
+        let values = self.answers.iter().map(|own| self.numbers(*own, dimension));
         let values = values.collect::<Result<Vec<_>, _>>()?;
-        let names: Vec<&str> = list(self.columns.iter().map(|own| self.name(*own)));
+        let names: Vec<&str> = list(self.answers.iter().map(|own| self.name(*own)));
         let pairs = |values: &[f64]| list(omegas.iter().copied().zip(values.iter().copied()));
         let record = match &values[..] {
             [storage, loss] => {
@@ -194,7 +205,7 @@ impl Columns<'_, '_> {
     /// What answers over time: a modulus or compliance after a step, or a stress, strain, force or deformation with
     /// the history that another column has.
     fn over_time(&self, time: usize) -> Result<Found, CliError> {
-        let &[column] = &self.columns[..] else {
+        let &[column] = &self.answers[..] else {
             return Err(self.file.unclear("over time one column answers".to_owned()));
         };
         let (name, dimension) = (self.name(column), self.dimension(column)?);

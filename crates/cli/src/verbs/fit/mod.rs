@@ -1,6 +1,8 @@
 //! `dashpot fit`.
 
 mod asked;
+mod scene;
+mod scene_words;
 mod words;
 mod written;
 
@@ -30,30 +32,49 @@ use crate::{
 #[command(after_help = "Examples:\n  \
     dashpot fit --to \"relax.csv:G=felt\" --out felt.toml\n  \
     dashpot fit --to \"dma.csv:E',E''=felt\" --error 2%\n  \
+    dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:force=pad.force\"\n  \
     dashpot fit pad.toml --to \"hold.csv:stress=foam\" --until \"140 s\" --out fitted.toml\n\n\
     Files have names and units: times or frequencies, and moduli (relaxation, storage and loss), \
     compliances (creep), or a stress and the strain that was measured beside it, likewise forces \
-    and deformations of a pad. What no network of springs and dashpots can meet is said, and what \
+    and deformations of a pad. A scene is fitted to forces, accelerations, velocities or \
+    deformations over time; several tests share its numbers, and what differs is set behind a \
+    comma, as in \"low.csv:force=pad.force,head.drop=0.5 m\". What no network of springs and dashpots can meet is said, and what \
     the records do not determine.")]
 pub(crate) struct FitArguments {
-    /// The scene whose model is replaced; without it the model is written alone.
+    /// The scene whose numbers are fitted, or whose model is replaced; without it a model is written alone.
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
-    /// Which columns of a file a model is fitted to; repeatable for one model.
-    #[arg(long, value_name = "FILE:COLUMNS=MODEL", value_parser = asked, required = true)]
+    /// What is fitted to: columns of a file to a model, or a column to an output of the scene, with what is set for
+    /// this test alone behind a comma; repeatable.
+    #[arg(long, value_name = "FILE:COLUMNS=TARGET", value_parser = asked, required = true)]
     to: Vec<Asked>,
+    /// A number of the scene that is fitted, and its bounds, "K=10..1000 kN/m"; repeatable.
+    #[arg(long, value_name = "NAME=LOW..HIGH", requires = "scene")]
+    vary: Vec<String>,
     /// The largest error that fewer branches may make.
     #[arg(long, value_name = "PART", default_value = "1%", value_parser = share)]
     error: f64,
     /// Leaves out rows behind this time of the file.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
     until: Option<f64>,
-    /// Whether the clock of what answered may differ from that of what was done.
+    /// Whether the clock of a record may be off: against the run, or of what answered against what was done.
     #[arg(long, value_name = "WHEN", default_value = "on")]
     shift: Switch,
+    /// Whether the zero of a record of a scene may be off.
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    offset: Switch,
+    /// Whether rows that are far off count by their magnitude, in place of its square.
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    robust: Switch,
+    /// From how many starts numbers of a scene are searched: its own, and others over the bounds.
+    #[arg(long, value_name = "NUMBER", default_value_t = 5)]
+    starts: usize,
+    /// The seed of these starts.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
     #[command(flatten)]
     values: ValueArguments,
-    /// File for the scene with the fitted model.
+    /// File for the scene with what was fitted.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrites the file if there is one.
@@ -85,14 +106,36 @@ impl Fitted {
     }
 }
 
-/// Fits a model.
+/// Fits numbers of a scene, or a model.
 pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let input = arguments.scene.as_deref().map(Input::read).transpose()?;
+    let Some(input) = input.as_ref().filter(|_| !arguments.vary.is_empty()) else {
+        return fit_model(arguments, input.as_ref(), terminal);
+    };
+    let fitted = scene::fitted(arguments, input, terminal)?;
+    emit(&fitted, arguments.json, None, terminal)?;
+    if let Some(path) = &arguments.out {
+        write_text(path, &fitted.scene_text(&fitted.comments()), arguments.force)?;
+        note(&format!("wrote {}", path.display()));
+    }
+    Ok(Status::Done)
+}
+
+fn fit_model(
+    arguments: &FitArguments,
+    input: Option<&Input>,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
     let name = &arguments.to[0].target;
     if let Some(other) = arguments.to.iter().find(|own| own.target != *name) {
         let reason = format!("`{name}` is fitted already: one model at a time");
         return Err(CliError::Fit { text: other.text.clone(), reason });
     }
-    let input = arguments.scene.as_deref().map(Input::read).transpose()?;
+    if let Some(own) = arguments.to.iter().find(|own| own.target.contains('.')) {
+        let reason =
+            "an output of a scene wants numbers that are fitted: `--vary \"K=10..1000 kN/m\"`";
+        return Err(CliError::Fit { text: own.text.clone(), reason: reason.to_owned() });
+    }
     let measured = arguments.to.iter().map(|own| own.measured(arguments.until));
     let measured = measured.collect::<Result<Vec<_>, _>>()?;
     let is_material = measured[0].is_material;
@@ -116,7 +159,7 @@ pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status
     };
     let model = written::model(&fitted.fit)
         .ok_or_else(|| CliError::OutOfRange { word: fitted.name.clone() })?;
-    let scene = input.as_ref().map(|own| (own, &arguments.values.set[..]));
+    let scene = input.map(|own| (own, &arguments.values.set[..]));
     let text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, None, terminal)?;
     if let Some(path) = &arguments.out {
