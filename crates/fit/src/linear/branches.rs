@@ -9,7 +9,7 @@ const FEW_STEPS: usize = 5;
 const MANY_STEPS: usize = 60;
 /// A refinement has settled where a step wins less than this part.
 const COARSE: f64 = 1e-3;
-const FINE: f64 = 1e-8;
+const FINE: f64 = 1e-6;
 /// So many mergers are tried before there is none.
 const TRIALS: usize = 3;
 
@@ -47,7 +47,7 @@ pub(super) fn fewest(
         Against::Floor => Misfit::of_vector(&(residual - floor)).largest,
     };
     let mut best = start;
-    let mut residual = best.refine(problem, MANY_STEPS, COARSE);
+    let mut residual = best.residual(problem);
     let is_kept = off(&residual) <= stated;
     while let Some((next, left)) = fewer(problem, &best, |left| off(left) <= stated) {
         (best, residual) = (next, left);

@@ -172,4 +172,4 @@ pub(super) fn range(dense: &Dense, end: End, tolerated: f64) -> Option<Range> {
 
 /// Pulls from e^−20 to e^20 of what a network's residual would weigh are tried, by so many bisections.
 const LN_PULLS: f64 = 20.0;
-const STEPS: usize = 22;
+const STEPS: usize = 14;

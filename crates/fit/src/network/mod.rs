@@ -249,8 +249,12 @@ fn search(
         let each = own.unknowns.iter().zip(&found[0].unknowns).take(numbers.len());
         each.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
     };
-    let reached = found.iter().filter(|own| distance(own) <= APART).count();
-    let others = found.iter().filter(|own| is_low(own) && distance(own) > APART);
+    // Along what is not determined there are others anyhow.
+    let is_apart = |own: &Optimum| certainty.undetermined.ncols() == 0 && distance(own) > APART;
+    let is_same =
+        |own: &&Optimum| if distance(own) > APART { !is_apart(own) && is_low(own) } else { true };
+    let reached = found.iter().filter(is_same).count();
+    let others = found.iter().filter(|own| is_low(own) && is_apart(own));
     let others = others.map(|own| Other {
         values: task.values(&own.unknowns),
         cost: own.cost / found[0].cost.max(f64::MIN_POSITIVE),

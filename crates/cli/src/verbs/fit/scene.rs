@@ -36,6 +36,8 @@ use crate::{
 const DIGITS: usize = 5;
 /// A number is moved by this part to see what it acts on.
 const MOVED: f64 = 1e-3;
+/// Tolerance of runs by stepping methods.
+const RTOL: f64 = 1e-9;
 /// Runs that are kept for each test, because they are asked for again.
 const KEPT: usize = 4;
 
@@ -113,8 +115,12 @@ pub(super) fn fitted(
         is_robust: arguments.robust == Switch::On,
     };
     let fit = fit(&begun, &tests, settings, &|test, values| solver.curve(test, values));
-    let fit = fit.map_err(|fault| wrong(&fault, &curves))?;
+    let mut fit = fit.map_err(|fault| wrong(&fault, &curves))?;
     let shown = solver.shown(&fit)?;
+    // What no test tells apart has no intervals, whatever rounding makes of them.
+    let is_shown = |own: &Varied| shown.iter().any(|other| other.numbers.contains(&own.name));
+    let each = numbers.iter().zip(&mut fit.numbers).filter(|own| is_shown(own.0));
+    each.for_each(|own| own.1.ends = None);
     Ok(FittedScene { scene, numbers, curves, shown, fit, tunables })
 }
 
@@ -197,6 +203,8 @@ impl Solver<'_> {
         };
         let mut settings = posed.settings(method).map_err(|error| error.to_string())?;
         settings.estimate = false;
+        // Differences of runs are taken, which exact ones bear anyhow.
+        settings.rtol = settings.rtol.or(Some(RTOL));
         settings.measures.clear();
         settings.limits.clear();
         let run = posed.network.solve_with(&settings).map_err(|error| error.to_string())?;

@@ -18,6 +18,8 @@ const DIGITS: usize = 4;
 const FEW: usize = 3;
 /// A peak that is missed by more than this part is told first.
 const MISSED: f64 = 0.05;
+/// A record that ends behind the run by more than this part of it is told.
+const BEYOND: f64 = 0.01;
 /// More others are not listed.
 const MOST_OTHERS: usize = 3;
 
@@ -117,6 +119,18 @@ impl FittedScene {
                 asked.file,
                 percent_signed(held_out)
             ))
+        }));
+        let duration = self.scene.run.duration;
+        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
+            let last = curve.rows.last()?.0 - own.shift;
+            (last > duration * (1.0 + BEYOND)).then(|| {
+                format!(
+                    "{} goes on for {} behind the end of the run, where the last value stands: give the scene a \
+                     longer `duration`",
+                    asked.file,
+                    quantity(last - duration, "s", FEW)
+                )
+            })
         }));
         all.extend(
             self.curves
