@@ -91,7 +91,7 @@ impl Band {
 /// within their noise; without an upper end where nothing bounds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// That of the nearest network.
+    /// That of the fewest branches.
     pub value: f64,
     /// The lower end.
     pub low: f64,
@@ -106,6 +106,11 @@ impl Range {
     /// Whether records determine it: within a tenth either way.
     pub fn is_identified(&self) -> bool {
         self.high.is_some_and(|high| high - self.low <= IDENTIFIED * self.value)
+    }
+
+    /// The range with the value of another network that is as near.
+    pub(super) fn around(self, value: f64) -> Self {
+        Self { value, low: self.low.min(value), high: self.high.map(|own| own.max(value)) }
     }
 
     pub(super) fn joined(self, other: Self) -> Self {

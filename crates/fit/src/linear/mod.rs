@@ -145,6 +145,7 @@ pub fn fit(records: &[Record], settings: LinearSettings) -> Result<LinearFit, Li
     });
     let band = Band::of(&problem, &few.spectrum, (&nearest, &left));
     let [spring, sum] = shift::ranges(records, &shifts, &problem, [End::Spring, End::Sum]);
+    let branches: f64 = few.spectrum.branches.iter().map(|own| own.1).sum();
     Ok(LinearFit {
         form: problem.form,
         against: few.against,
@@ -153,8 +154,8 @@ pub fn fit(records: &[Record], settings: LinearSettings) -> Result<LinearFit, Li
         misfit: Misfit::of_vector(&few.residual),
         floor_unshifted,
         records: each(records, &shifts, &problem, [&left, &few.residual]),
-        spring,
-        sum,
+        spring: spring.around(few.spectrum.spring),
+        sum: sum.around(few.spectrum.spring + branches),
         band,
         spectrum: few.spectrum,
         slowest: shift::slowest(&problem),
