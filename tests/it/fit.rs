@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use crate::cli::{code, err, file, json, out, run, text};
 
-/// A Zener solid: 2 MPa at rest, 5 MPa at once, 20 ms between.
+/// A Zener solid by its spring, its branch and the time of that.
 const SPRING: f64 = 2e6;
 const BRANCH: f64 = 3e6;
 const TIME: f64 = 0.02;
