@@ -132,19 +132,26 @@ pub struct LinearFit {
 pub fn fit(records: &[Record], settings: LinearSettings) -> Result<LinearFit, LinearFault> {
     checked(records)?;
     let unshifted = vec![0.0; records.len()];
-    let shifts = if settings.is_shifted { shift::nearest(records) } else { unshifted.clone() };
-    let problem = Problem::of(records, &shifts);
-    let Nearest { spectrum: nearest, start, left } =
-        Nearest::of(&problem).ok_or(LinearFault::NoAnswer)?;
+    let mut shifts = if settings.is_shifted { shift::nearest(records) } else { unshifted.clone() };
+    let mut problem = Problem::of(records, &shifts);
+    let mut found = Nearest::of(&problem).ok_or(LinearFault::NoAnswer)?;
+    let mut floor_unshifted = None;
+    if shifts.iter().any(|own| *own != 0.0) {
+        let plain = Problem::of(records, &unshifted);
+        let own = Nearest::of(&plain).ok_or(LinearFault::NoAnswer)?;
+        let before = Misfit::of_vector(&own.left);
+        if shift::is_nearer(Misfit::of_vector(&found.left), before) {
+            floor_unshifted = Some(before);
+        } else {
+            (shifts, problem, found) = (unshifted, plain, own);
+        }
+    }
+    let Nearest { spectrum: nearest, start, left } = found;
     let few = fewest(&problem, start, &left, settings.error);
     let floor = Misfit::of_vector(&left);
-    let is_moved = shifts.iter().any(|own| *own != 0.0);
-    let floor_unshifted = is_moved.then_some(()).and_then(|()| {
-        let own = Nearest::of(&Problem::of(records, &unshifted));
-        own.map(|own| Misfit::of_vector(&own.left))
-    });
     let band = Band::of(&problem, &few.spectrum, (&nearest, &left));
-    let [spring, sum] = shift::ranges(records, &shifts, &problem, [End::Spring, End::Sum]);
+    let clocks = (&shifts[..], settings.is_shifted);
+    let [spring, sum] = shift::ranges(records, clocks, &problem, [End::Spring, End::Sum]);
     let branches: f64 = few.spectrum.branches.iter().map(|own| own.1).sum();
     Ok(LinearFit {
         form: problem.form,

@@ -45,6 +45,15 @@ fn lower(best: (f64, f64), own: (f64, f64)) -> (f64, f64) {
     if own.0 < best.0 { own } else { best }
 }
 
+/// A shift that lowers the floor by less than this part is none, and so is one from a floor of rounding alone.
+const LOWERS: f64 = 0.02;
+const ROUNDING: f64 = 1e-9;
+
+/// Whether shifted clocks bring the nearest network nearer to the rows.
+pub(super) fn is_nearer(shifted: Misfit, unshifted: Misfit) -> bool {
+    unshifted.rms > ROUNDING && shifted.rms < (1.0 - LOWERS) * unshifted.rms
+}
+
 /// A branch has relaxed to 1 % after so many of its times.
 const MOST_SEEN: f64 = 5.0;
 
@@ -58,7 +67,7 @@ pub(super) fn slowest(problem: &Problem) -> f64 {
 /// No branch is so slow that little of it is seen: it could not be told from the spring. How fast one is is free.
 pub(super) fn ranges(
     records: &[Record],
-    shifts: &[f64],
+    (shifts, are_free): (&[f64], bool),
     problem: &Problem,
     ends: [End; 2],
 ) -> [Range; 2] {
@@ -68,7 +77,7 @@ pub(super) fn ranges(
     let mut others: Vec<Dense> = Vec::new();
     for (at, record) in records.iter().enumerate().filter(|own| own.1.has_history()) {
         let step = record.range().0 / f64::from(AROUND);
-        for tried in (-AROUND..=AROUND).filter(|own| *own != 0 && shifts[at] != 0.0) {
+        for tried in (-AROUND..=AROUND).filter(|own| *own != 0 && are_free) {
             let mut shifts = shifts.to_vec();
             shifts[at] += f64::from(tried) * step;
             others.push(Dense::until(&Problem::of(records, &shifts), slowest));

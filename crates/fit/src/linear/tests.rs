@@ -147,6 +147,8 @@ fn a_clock_that_is_late_is_found() {
     let record = ramp(&truth, 0.06, 0.5);
     let own = fit(std::slice::from_ref(&record), SETTINGS).unwrap();
     assert!((own.records[0].shift - 0.06).abs() < 0.25 * 0.15, "{}", own.records[0].shift);
+    let exact = fit(&[ramp(&truth, 0.0, 0.0)], SETTINGS).unwrap();
+    assert!(exact.records[0].shift == 0.0 && exact.floor_unshifted.is_none(), "{exact:?}");
     let unshifted = own.floor_unshifted.unwrap();
     assert!(unshifted.rms > 2.0 * own.floor.rms);
     let blind = LinearSettings { is_shifted: false, ..SETTINGS };
