@@ -29,6 +29,7 @@ mod equivalence;
 mod error_bars;
 mod examples;
 mod files;
+mod fit;
 mod formulas;
 mod gallery;
 mod gradients;

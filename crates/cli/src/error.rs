@@ -130,11 +130,14 @@ pub(crate) enum CliError {
     #[error("`{file}`, {fault}")]
     MeasuredTable { file: String, fault: Box<TableError> },
     /// A measured curve that cannot be read, or of which it is not clear what it measured.
-    #[error("`--measured {file}`: {reason}")]
-    MeasuredColumn { file: String, reason: String },
+    #[error("`{flag} {file}`: {reason}")]
+    MeasuredColumn { flag: &'static str, file: String, reason: String },
+    /// Something that nothing can be fitted to.
+    #[error("`--to {text}`: {reason}")]
+    Fit { text: String, reason: String },
     /// An output that a scene does not have, or that cannot be measured.
-    #[error("`--measured {file}`: there is no `{name}` over time to stand beside")]
-    NotMeasurable { file: String, name: String, known: Vec<String> },
+    #[error("`{flag} {file}`: there is no `{name}` over time to stand beside")]
+    NotMeasurable { flag: &'static str, file: String, name: String, known: Vec<String> },
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },

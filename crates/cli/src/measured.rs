@@ -12,18 +12,21 @@ use crate::{
 
 /// The text of a file of numbers.
 pub(crate) struct MeasuredFile {
+    /// The option that names it.
+    flag: &'static str,
     name: String,
     text: String,
 }
 
 impl MeasuredFile {
     /// Reads a file.
-    pub(crate) fn read(name: &str) -> Result<Self, CliError> {
+    pub(crate) fn read(flag: &'static str, name: &str) -> Result<Self, CliError> {
         let bytes = bytes_of(Path::new(name)).map_err(|error| CliError::MeasuredColumn {
+            flag,
             file: name.to_owned(),
             reason: format!("it cannot be read: {}", reason(&error)),
         })?;
-        Ok(Self { name: name.to_owned(), text: table_text(&bytes).into_owned() })
+        Ok(Self { flag, name: name.to_owned(), text: table_text(&bytes).into_owned() })
     }
 
     /// Its table.
@@ -38,7 +41,7 @@ impl MeasuredFile {
 
     /// A column that cannot be told from the others.
     pub(crate) fn unclear(&self, reason: String) -> CliError {
-        CliError::MeasuredColumn { file: self.name.clone(), reason }
+        CliError::MeasuredColumn { flag: self.flag, file: self.name.clone(), reason }
     }
 
     /// The one column that measures `dimension`; `None` where there is none.

@@ -3,12 +3,13 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 14] = [
+const CHAPTERS: [(&str, usize, usize); 15] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
     ("gradients", 1, 0),
+    ("fit", 3, 0),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),

@@ -6,6 +6,7 @@ mod compare;
 mod convert;
 mod cost;
 mod explain;
+mod fit;
 mod groups;
 mod list;
 mod printed;
@@ -69,6 +70,8 @@ pub(crate) enum Command {
     Cost(cost::CostArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
+    /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
+    Fit(fit::FitArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
     Vibrate(vibrate::VibrateArguments),
     /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
@@ -106,6 +109,7 @@ impl Command {
             Self::Rheometer(arguments) => rheometer::rheometer(arguments, terminal),
             Self::Cost(arguments) => cost::cost(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
+            Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
             Self::Thesis(arguments) => thesis::thesis(arguments, terminal),
             Self::Groups(arguments) => groups::groups(arguments, terminal),

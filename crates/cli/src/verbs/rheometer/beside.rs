@@ -29,7 +29,7 @@ pub(super) struct MeasuredLoop {
 impl MeasuredLoop {
     /// Reads the loop in a file: the columns of deformation and force, or of a material those of strain and stress.
     pub(super) fn read(file: &str, units: Units) -> Result<Self, CliError> {
-        let own = MeasuredFile::read(file)?;
+        let own = MeasuredFile::read("--measured", file)?;
         let table = own.table()?;
         let (place, force, words) = if units.is_material {
             (

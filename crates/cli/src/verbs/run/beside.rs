@@ -34,18 +34,22 @@ pub(super) struct MeasuredArguments {
 impl MeasuredArguments {
     /// The curves, each beside an output of the scene.
     pub(super) fn read(&self, scene: &Scene) -> Result<Vec<MeasuredCurve>, CliError> {
-        let shift = self.shift.unwrap_or(0.0);
-        self.measured.iter().map(|own| MeasuredCurve::read(own, shift, &scene.assembly)).collect()
+        let (shift, assembly) = (self.shift.unwrap_or(0.0), &scene.assembly);
+        let read = |own: &String| MeasuredCurve::read((FLAG, own), shift, assembly);
+        self.measured.iter().map(read).collect()
     }
 }
 
+/// The option, for messages.
+const FLAG: &str = "--measured";
+
 /// An output of a scene that can be measured.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Output {
+pub(in crate::verbs) struct Output {
     /// Name of the element or mass.
     name: String,
     /// Which signal.
-    pub(super) of: Of,
+    pub(in crate::verbs) of: Of,
 }
 
 /// What can be measured over time.
@@ -64,13 +68,18 @@ fn dimension(of: Of) -> Dimension {
 }
 
 impl Output {
+    /// Name of its element or mass.
+    pub(in crate::verbs) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// What it is called: `pad.force`.
-    pub(super) fn key(&self) -> String {
+    pub(in crate::verbs) fn key(&self) -> String {
         format!("{}.{}", self.name, self.of.word())
     }
 
     /// Its SI unit.
-    pub(super) fn unit(&self) -> &'static str {
+    pub(in crate::verbs) fn unit(&self) -> &'static str {
         dimension(self.of).named().map_or("1", |own| own.1)
     }
 
@@ -114,7 +123,7 @@ impl Output {
 
     /// Its number in the system of a network, and the sign that makes it what is measured: accelerometers count away
     /// from the support.
-    fn place(&self, assembly: &Assembly) -> Option<(usize, f64)> {
+    pub(in crate::verbs) fn place(&self, assembly: &Assembly) -> Option<(usize, f64)> {
         let node = || assembly.nodes.iter().find(|own| own.name == self.name);
         Some(match self.of {
             Of::Force => (assembly.connection(&self.name)?.force?, 1.0),
@@ -128,20 +137,20 @@ impl Output {
 
 /// A measured curve.
 #[derive(Debug, Clone)]
-pub(super) struct MeasuredCurve {
+pub(in crate::verbs) struct MeasuredCurve {
     /// The file, as it is named.
-    pub(super) file: String,
+    pub(in crate::verbs) file: String,
     pub(super) sha256: String,
     /// Name of the column.
     pub(super) column: String,
     /// What it measured.
-    pub(super) output: Output,
+    pub(in crate::verbs) output: Output,
     /// (Time \[s\], value in SI units), moved.
-    pub(super) rows: Vec<(f64, f64)>,
+    pub(in crate::verbs) rows: Vec<(f64, f64)>,
     /// How much later than in the file the rows are \[s\].
     pub(super) shift: f64,
     /// What is told of the file.
-    pub(super) note: Option<String>,
+    pub(in crate::verbs) note: Option<String>,
 }
 
 /// A measured curve beside one run.
@@ -153,13 +162,18 @@ pub(super) struct Beside {
 }
 
 impl MeasuredCurve {
-    fn read(argument: &str, shift: f64, assembly: &Assembly) -> Result<Self, CliError> {
+    pub(in crate::verbs) fn read(
+        (flag, argument): (&'static str, &str),
+        shift: f64,
+        assembly: &Assembly,
+    ) -> Result<Self, CliError> {
         let (name, column, output) = parts(argument);
-        let file = MeasuredFile::read(name)?;
+        let file = MeasuredFile::read(flag, name)?;
         let known = Output::all(assembly);
         let wanted = output.map(|wanted| {
             let found = known.iter().find(|own| own.key() == wanted).cloned();
             found.ok_or_else(|| CliError::NotMeasurable {
+                flag,
                 file: name.to_owned(),
                 name: wanted.to_owned(),
                 known: known.iter().map(Output::key).collect(),
@@ -193,7 +207,11 @@ impl MeasuredCurve {
 
     /// How far a run is from it.
     pub(super) fn beside(&self, run: &RunReport) -> Result<Beside, CliError> {
-        let unlike = |reason: String| CliError::MeasuredColumn { file: self.file.clone(), reason };
+        let unlike = |reason: String| CliError::MeasuredColumn {
+            flag: FLAG,
+            file: self.file.clone(),
+            reason,
+        };
         let place = self.output.place(&run.assembly);
         let kept = place.filter(|own| run.trajectory.keeps(&run.assembly.system, own.0));
         let Some((output, sign)) = kept else {

@@ -1,6 +1,6 @@
 //! `dashpot run`.
 
-mod beside;
+pub(super) mod beside;
 mod curves;
 mod designs;
 mod deviations;
@@ -11,7 +11,7 @@ mod measures;
 mod object;
 mod resolved_scene;
 mod scatter;
-mod series;
+pub(super) mod series;
 mod solving;
 mod verdict;
 

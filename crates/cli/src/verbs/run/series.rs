@@ -45,7 +45,7 @@ pub(super) fn curves_and_energies<'r>(
 }
 
 /// When the first impactor that falls or flies first touches something \[s\]; `None` where all do from the start.
-pub(super) fn first_touch(report: &RunReport) -> Option<f64> {
+pub(in crate::verbs) fn first_touch(report: &RunReport) -> Option<f64> {
     let is_struck = |contact: &&ContactReport| {
         use dashpot_analysis::Contact::{Lasting, Parted, Released};
         matches!(contact.impact.contact, Released | Parted | Lasting)

@@ -1,0 +1,251 @@
+//! What is fitted to what: `--to "relax.csv:G=felt"`, and the records in the files.
+
+use dashpot_fit::linear::Record;
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::DataTable;
+
+use crate::{args::assignment, error::CliError, measured::MeasuredFile, output::list};
+
+/// The option, for messages.
+pub(super) const FLAG: &str = "--to";
+/// A compliance of a material, 1/Pa.
+const MATERIAL_COMPLIANCE: Dimension = Dimension::new(-1, 1, 2);
+
+/// One `--to`.
+#[derive(Debug, Clone)]
+pub(super) struct Asked {
+    /// As it was written.
+    pub(super) text: String,
+    pub(super) file: String,
+    /// The columns that answered, by name or symbol.
+    columns: Vec<String>,
+    /// A model, or an output of a scene.
+    pub(super) target: String,
+    /// What is set for this test alone.
+    pub(super) set: Vec<(String, String)>,
+}
+
+/// Reads one.
+pub(super) fn asked(text: &str) -> Result<Asked, String> {
+    let help = "write a file, its columns and a model, such as \"relax.csv:G=felt\" or \
+                \"dma.csv:E',E''=felt\", or an output of a scene, such as \"drop.csv:force=pad.force\"";
+    let (left, right) = text.split_once('=').ok_or(help)?;
+    let mut right = right.split(',');
+    let target = right.next().unwrap_or_default();
+    let set = right.map(assignment).collect::<Result<_, _>>()?;
+    let (file, columns) = left.rsplit_once(':').ok_or(help)?;
+    let columns = list(columns.split(',').map(|own| own.trim().to_owned()));
+    let (file, target) = (file.trim(), target.trim());
+    if file.is_empty() || target.is_empty() || columns.iter().any(String::is_empty) {
+        return Err(help.to_owned());
+    }
+    let (file, target) = (file.to_owned(), target.to_owned());
+    Ok(Asked { text: text.trim().to_owned(), file, columns, target, set })
+}
+
+/// A record of a file.
+pub(super) struct Measured {
+    pub(super) record: Record,
+    /// Whether it is that of a material, in Pa, or of a pad, in N and m.
+    pub(super) is_material: bool,
+    /// What was done, and what answered, in words.
+    pub(super) what: String,
+    /// Which lines of the file were left out.
+    pub(super) note: Option<String>,
+    /// The line of each row, from 1.
+    pub(super) lines: Vec<usize>,
+}
+
+impl Asked {
+    /// File, column and output, as for a curve beside a run.
+    pub(super) fn measured_as(&self) -> String {
+        format!("{}:{}={}", self.file, self.columns.join(","), self.target)
+    }
+
+    /// The record in the file, without rows behind a time \[s\].
+    pub(super) fn measured(&self, until: Option<f64>) -> Result<Measured, CliError> {
+        let file = MeasuredFile::read(FLAG, &self.file)?;
+        let table = file.table()?;
+        let columns = self.positions(&file, &table)?;
+        let found = Columns { file: &file, table: &table, answers: columns };
+        let frequency = file.only(&table, Dimension::FREQUENCY)?;
+        let time = file.only(&table, Dimension::TIME)?;
+        let (mut record, is_material, what) = match (frequency, time) {
+            (Some(frequency), _) if found.answers.len() == 2 || time.is_none() => {
+                found.oscillation(frequency, &self.columns)?
+            }
+            (_, Some(time)) => found.over_time(time)?,
+            _ => {
+                return Err(file.unclear(
+                    "a column of times, as in `t [s]`, or frequencies, as in `f [Hz]`, is wanted"
+                        .to_owned(),
+                ));
+            }
+        };
+        let mut lines = table.lines();
+        if let Some(until) = until {
+            cut(&mut record, &mut lines, until);
+        }
+        Ok(Measured { record, is_material, what, note: file.notes(&table), lines })
+    }
+
+    /// The columns that are named; a symbol that no column has stands for the only one that measures it.
+    fn positions(
+        &self,
+        file: &MeasuredFile,
+        table: &DataTable<'_>,
+    ) -> Result<Vec<usize>, CliError> {
+        let moduli = [Dimension::PRESSURE, Dimension::STIFFNESS];
+        let compliances = [Dimension::COMPLIANCE, MATERIAL_COMPLIANCE];
+        let measuring = |all: [Dimension; 2]| -> Vec<usize> {
+            list(all.into_iter().flat_map(|own| table.measuring(own)))
+        };
+        let is_named = |own: &String| table.position(own).is_ok();
+        if !self.columns.iter().any(is_named) {
+            let symbols: Vec<&str> = list(self.columns.iter().map(String::as_str));
+            let meant = match symbols[..] {
+                ["J" | "D"] => measuring(compliances),
+                ["G" | "E" | "K"] | ["G'" | "E'" | "K'", "G''" | "E''" | "K''"] => {
+                    measuring(moduli)
+                }
+                _ => Vec::new(),
+            };
+            if meant.len() == self.columns.len() {
+                return Ok(meant);
+            }
+        }
+        let found = self.columns.iter().map(|own| table.position(own));
+        found.collect::<Result<_, _>>().map_err(|fault| file.fault(fault))
+    }
+}
+
+/// Leaves out the rows behind a time.
+fn cut(record: &mut Record, lines: &mut Vec<usize>, until: f64) {
+    let mut is_kept = Vec::new();
+    match record {
+        Record::Relaxation(rows) | Record::Creep(rows) => rows.retain(|own| {
+            is_kept.push(own.0 <= until);
+            own.0 <= until
+        }),
+        Record::Strained(rows) | Record::Stressed(rows) => rows.retain(|own| {
+            is_kept.push(own[0] <= until);
+            own[0] <= until
+        }),
+        Record::Oscillation(_) | Record::Storage(_) | Record::Loss(_) => return,
+    }
+    let mut is_kept = is_kept.into_iter();
+    lines.retain(|_| is_kept.next().unwrap_or(false));
+}
+
+/// Columns of a file that answered.
+struct Columns<'f, 't> {
+    file: &'f MeasuredFile,
+    table: &'f DataTable<'t>,
+    answers: Vec<usize>,
+}
+
+/// A record, whether it is that of a material, and what it is.
+type Found = (Record, bool, String);
+
+impl Columns<'_, '_> {
+    fn name(&self, column: usize) -> &str {
+        self.table.heading(column).name
+    }
+
+    fn dimension(&self, column: usize) -> Result<Dimension, CliError> {
+        let name = self.name(column);
+        self.table.heading(column).dimension.ok_or_else(|| {
+            self.file.unclear(format!("column `{name}` has no unit: write `{name} [MPa]`, say"))
+        })
+    }
+
+    fn numbers(&self, column: usize, dimension: Dimension) -> Result<Vec<f64>, CliError> {
+        self.table.column(column, dimension).map_err(|own| self.file.fault(own))
+    }
+
+    /// Moduli over frequency.
+    fn oscillation(&self, frequency: usize, symbols: &[String]) -> Result<Found, CliError> {
+        let dimension = self.dimension(self.answers[0])?;
+        if ![Dimension::PRESSURE, Dimension::STIFFNESS].contains(&dimension) {
+            let name = self.name(self.answers[0]);
+            return Err(self.file.unclear(format!(
+                "column `{name}` over frequency is neither a modulus (Pa) nor a stiffness (N/m)"
+            )));
+        }
+        let is_material = dimension == Dimension::PRESSURE;
+        let omegas = self.numbers(frequency, Dimension::FREQUENCY)?;
+        let omegas: Vec<f64> = list(omegas.into_iter().map(|own| own * std::f64::consts::TAU));
+        let values = self.answers.iter().map(|own| self.numbers(*own, dimension));
+        let values = values.collect::<Result<Vec<_>, _>>()?;
+        let names: Vec<&str> = list(self.answers.iter().map(|own| self.name(*own)));
+        let pairs = |values: &[f64]| list(omegas.iter().copied().zip(values.iter().copied()));
+        let record = match &values[..] {
+            [storage, loss] => {
+                let rows = omegas.iter().zip(storage).zip(loss);
+                Record::Oscillation(list(rows.map(|((omega, one), other)| [*omega, *one, *other])))
+            }
+            [one] if symbols[0].ends_with("''") => Record::Loss(pairs(one)),
+            [one] if symbols[0].ends_with('\'') => Record::Storage(pairs(one)),
+            _ => {
+                return Err(self.file.unclear(
+                    "over frequency name storage and loss, as in \"dma.csv:E',E''=felt\", or one of \
+                     them by a symbol with one or two strokes"
+                        .to_owned(),
+                ));
+            }
+        };
+        let what = match record {
+            Record::Loss(_) => format!("loss `{}`", names[0]),
+            Record::Storage(_) => format!("storage `{}`", names[0]),
+            _ => format!("storage `{}` and loss `{}`", names[0], names[1]),
+        };
+        Ok((record, is_material, what))
+    }
+
+    /// What answers over time: a modulus or compliance after a step, or a stress, strain, force or deformation with
+    /// the history that another column has.
+    fn over_time(&self, time: usize) -> Result<Found, CliError> {
+        let &[column] = &self.answers[..] else {
+            return Err(self.file.unclear("over time one column answers".to_owned()));
+        };
+        let (name, dimension) = (self.name(column), self.dimension(column)?);
+        let (driver, is_material, is_driven_by_strain) = match dimension {
+            Dimension::PRESSURE => (Dimension::NUMBER, true, true),
+            Dimension::FORCE => (Dimension::LENGTH, false, true),
+            Dimension::NUMBER => (Dimension::PRESSURE, true, false),
+            Dimension::LENGTH => (Dimension::FORCE, false, false),
+            Dimension::STIFFNESS => (Dimension::STIFFNESS, false, true),
+            Dimension::COMPLIANCE => (Dimension::COMPLIANCE, false, false),
+            MATERIAL_COMPLIANCE => (MATERIAL_COMPLIANCE, true, false),
+            _ => {
+                return Err(self.file.unclear(format!(
+                    "column `{name}` is no modulus, compliance, stress, strain, force or deformation"
+                )));
+            }
+        };
+        let times = self.numbers(time, Dimension::TIME)?;
+        let values = self.numbers(column, dimension)?;
+        let driven = if driver == dimension { None } else { self.file.only(self.table, driver)? };
+        let Some(driven) = driven else {
+            if dimension != driver && dimension != Dimension::PRESSURE {
+                let wanted = driver.named().map_or("what was done", |own| own.0);
+                return Err(self.file.unclear(format!(
+                    "`{name}` over time needs a column of what was done, {wanted}, with its unit"
+                )));
+            }
+            let rows = list(times.into_iter().zip(values));
+            return Ok(if is_driven_by_strain {
+                (Record::Relaxation(rows), is_material, format!("relaxation `{name}`"))
+            } else {
+                (Record::Creep(rows), is_material, format!("creep `{name}`"))
+            });
+        };
+        let history = self.numbers(driven, driver)?;
+        let rows = times.into_iter().zip(history).zip(values);
+        let rows = list(rows.map(|((time, done), answer)| [time, done, answer]));
+        let what = format!("`{name}` under the history of `{}`", self.name(driven));
+        let record =
+            if is_driven_by_strain { Record::Strained(rows) } else { Record::Stressed(rows) };
+        Ok((record, is_material, what))
+    }
+}

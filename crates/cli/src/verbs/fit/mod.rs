@@ -1,0 +1,243 @@
+//! `dashpot fit`.
+
+mod asked;
+mod scene;
+mod scene_words;
+mod words;
+mod written;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use dashpot_fit::linear::{
+    LinearFault, LinearFit, LinearSettings, Record, RecordFault, fit as fit_spectrum,
+};
+use serde::Serialize;
+
+use self::{
+    asked::{Asked, Measured, asked},
+    words::{Units, branches, comments, determined, ends, notes, records, warnings},
+};
+use crate::{
+    args::{Switch, ValueArguments, share, signed_time},
+    error::{CliError, Status},
+    input::Input,
+    output::{Pairs, Study, Text, VERSION, emit, list, object},
+    part::write_text,
+    terminal::{Terminal, note},
+};
+
+/// `fit`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot fit --to \"relax.csv:G=felt\" --out felt.toml\n  \
+    dashpot fit --to \"dma.csv:E',E''=felt\" --error 2%\n  \
+    dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:force=pad.force\"\n  \
+    dashpot fit pad.toml --to \"hold.csv:stress=foam\" --until \"140 s\" --out fitted.toml\n\n\
+    Files have names and units: times or frequencies, and moduli (relaxation, storage and loss), \
+    compliances (creep), or a stress and the strain that was measured beside it, likewise forces \
+    and deformations of a pad. A scene is fitted to forces, accelerations, velocities or \
+    deformations over time; several tests share its numbers, and what differs is set behind a \
+    comma, as in \"low.csv:force=pad.force,head.drop=0.5 m\". What no network of springs and dashpots can meet is said, and what \
+    the records do not determine.")]
+pub(crate) struct FitArguments {
+    /// The scene whose numbers are fitted, or whose model is replaced; without it a model is written alone.
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// What is fitted to: columns of a file to a model, or a column to an output of the scene, with what is set for
+    /// this test alone behind a comma; repeatable.
+    #[arg(long, value_name = "FILE:COLUMNS=TARGET", value_parser = asked, required = true)]
+    to: Vec<Asked>,
+    /// A number of the scene that is fitted, and its bounds, "K=10..1000 kN/m"; repeatable.
+    #[arg(long, value_name = "NAME=LOW..HIGH", requires = "scene")]
+    vary: Vec<String>,
+    /// The largest error that fewer branches may make.
+    #[arg(long, value_name = "PART", default_value = "1%", value_parser = share)]
+    error: f64,
+    /// Leaves out rows behind this time of the file.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    until: Option<f64>,
+    /// Whether the clock of a record may be off: against the run, or of what answered against what was done.
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    shift: Switch,
+    /// Whether the zero of a record of a scene may be off.
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    offset: Switch,
+    /// Whether rows that are far off count by their magnitude, in place of its square.
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    robust: Switch,
+    /// From how many starts numbers of a scene are searched: its own, and others over the bounds.
+    #[arg(long, value_name = "NUMBER", default_value_t = 5)]
+    starts: usize,
+    /// The seed of these starts.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    values: ValueArguments,
+    /// File for the scene with what was fitted.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrites the file if there is one.
+    #[arg(long, requires = "out")]
+    force: bool,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is told of a record.
+struct Told {
+    file: String,
+    what: String,
+}
+
+/// A model that was fitted.
+struct Fitted {
+    name: String,
+    is_material: bool,
+    error: f64,
+    records: Vec<Told>,
+    fit: LinearFit,
+}
+
+impl Fitted {
+    fn units(&self) -> Units {
+        Units::of(self.fit.form, self.is_material)
+    }
+}
+
+/// Fits numbers of a scene, or a model.
+pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let input = arguments.scene.as_deref().map(Input::read).transpose()?;
+    let Some(input) = input.as_ref().filter(|_| !arguments.vary.is_empty()) else {
+        return fit_model(arguments, input.as_ref(), terminal);
+    };
+    let fitted = scene::fitted(arguments, input, terminal)?;
+    emit(&fitted, arguments.json, None, terminal)?;
+    if let Some(path) = &arguments.out {
+        write_text(path, &fitted.scene_text(&fitted.comments()), arguments.force)?;
+        note(&format!("wrote {}", path.display()));
+    }
+    Ok(Status::Done)
+}
+
+fn fit_model(
+    arguments: &FitArguments,
+    input: Option<&Input>,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let name = &arguments.to[0].target;
+    if let Some(other) = arguments.to.iter().find(|own| own.target != *name) {
+        let reason = format!("`{name}` is fitted already: one model at a time");
+        return Err(CliError::Fit { text: other.text.clone(), reason });
+    }
+    if let Some(own) = arguments.to.iter().find(|own| own.target.contains('.')) {
+        let reason =
+            "an output of a scene wants numbers that are fitted: `--vary \"K=10..1000 kN/m\"`";
+        return Err(CliError::Fit { text: own.text.clone(), reason: reason.to_owned() });
+    }
+    let measured = arguments.to.iter().map(|own| own.measured(arguments.until));
+    let measured = measured.collect::<Result<Vec<_>, _>>()?;
+    let is_material = measured[0].is_material;
+    if measured.iter().any(|own| own.is_material != is_material) {
+        return Err(CliError::MaterialAndPad);
+    }
+    measured.iter().filter_map(|own| own.note.as_deref()).for_each(note);
+    let records: Vec<Record> = list(measured.iter().map(|own| own.record.clone()));
+    let settings =
+        LinearSettings { error: arguments.error, is_shifted: arguments.shift == Switch::On };
+    let fit =
+        fit_spectrum(&records, settings).map_err(|fault| wrong(fault, &arguments.to, &measured))?;
+    let told = arguments.to.iter().zip(measured);
+    let told = told.map(|(asked, own)| Told { file: asked.file.clone(), what: own.what });
+    let fitted = Fitted {
+        name: name.clone(),
+        is_material,
+        error: arguments.error,
+        records: told.collect(),
+        fit,
+    };
+    let model = written::model(&fitted.fit)
+        .ok_or_else(|| CliError::OutOfRange { word: fitted.name.clone() })?;
+    let scene = input.map(|own| (own, &arguments.values.set[..]));
+    let text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
+    emit(&fitted, arguments.json, None, terminal)?;
+    if let Some(path) = &arguments.out {
+        write_text(path, &text, arguments.force)?;
+        note(&format!("wrote {0}; its model is `{0}:{name}`", path.display()));
+    }
+    Ok(Status::Done)
+}
+
+/// A fault of a record, with its file and line.
+fn wrong(fault: LinearFault, asked: &[Asked], measured: &[Measured]) -> CliError {
+    let (record, row) = match fault {
+        LinearFault::Record { record, fault } => (record, RecordFault::row(&fault)),
+        LinearFault::MixedForms { record } => (record, None),
+        _ => (0, None),
+    };
+    let line = row.and_then(|row| measured[record].lines.get(row));
+    let line = line.map_or(String::new(), |line| format!("line {line}: "));
+    CliError::Fit { text: asked[record].text.clone(), reason: format!("{line}{fault}") }
+}
+
+impl Study for Fitted {
+    fn warnings(&self) -> Vec<String> {
+        warnings(self)
+    }
+
+    fn text(&self, text: &mut Text) {
+        text.warnings(&warnings(self));
+        text.title(&self.name);
+        text.table(&records(self));
+        text.table(&determined(self));
+        text.table(&branches(self));
+        text.blank();
+        text.items(notes(self));
+    }
+
+    fn notes(&self) -> Vec<String> {
+        notes(self)
+    }
+
+    fn object(&self) -> impl Serialize {
+        let unit = self.units().strength;
+        let parameters = ends(&self.fit, self.is_material).into_iter().map(|(key, _, range)| {
+            let (value, low, high) = (range.value, range.low, range.high);
+            (key, object! { value, low, high, unit, identified: range.is_identified() })
+        });
+        let tests = self.records.iter().zip(&self.fit.records).map(|(told, own)| {
+            object! {
+                file: &told.file,
+                rms: own.misfit.rms,
+                largest: own.misfit.largest,
+                floor: own.floor.rms,
+                scale: own.largest,
+                shift: own.shift,
+                offset: None::<f64>,
+                contradiction: own.contradiction.map(|own| object! {
+                    storage_alone: own.storage_alone,
+                    loss_alone: own.loss_alone,
+                    loss_from_storage: own.loss_from_storage,
+                    storage_from_loss: own.storage_from_loss,
+                }),
+            }
+        });
+        let branches = self.fit.spectrum.branches.iter();
+        object! {
+            dashpot: VERSION,
+            model: &self.name,
+            material: self.is_material,
+            parameters: parameters.collect::<Pairs<_, _>>(),
+            tests: list(tests),
+            converged: self.fit.is_kept,
+            floor: self.fit.floor.rms,
+            floor_unshifted: self.fit.floor_unshifted.map(|own| own.rms),
+            rms: self.fit.misfit.rms,
+            largest: self.fit.misfit.largest,
+            spring: self.fit.spectrum.spring,
+            dashpot_constant: self.fit.spectrum.dashpot,
+            branches: list(branches.map(|&(time, strength)| object! { time, strength, unit })),
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! What a fit of numbers of a scene says.
+
+use dashpot_fit::network::{Interval, TestFit};
+use dashpot_plot::Table;
+use serde::Serialize;
+
+use super::scene::{FittedScene, Shown, Varied};
+use crate::{
+    input::title,
+    numbers::{percent_signed, quantity, significant},
+    output::{Pairs, Study, Text, VERSION, list, object},
+    said,
+};
+
+/// Digits of fitted values.
+const DIGITS: usize = 4;
+/// Digits of times and residuals.
+const FEW: usize = 3;
+/// A peak that is missed by more than this part is told first.
+const MISSED: f64 = 0.05;
+/// A record that ends behind the run by more than this part of it is told.
+const BEYOND: f64 = 0.01;
+/// More others are not listed.
+const MOST_OTHERS: usize = 3;
+
+/// A value in the unit of a number.
+fn value(own: &Varied, value: f64) -> String {
+    let number = significant(value / own.one, DIGITS);
+    if own.unit.is_empty() { number } else { format!("{number} {}", own.unit) }
+}
+
+fn ends(own: &Varied, found: &Interval) -> [String; 2] {
+    match found.ends {
+        Some(ends) => ends.map(|end| value(own, end)),
+        None => ["no bound".to_owned(), "no bound".to_owned()],
+    }
+}
+
+impl FittedScene {
+    fn verdict(&self, at: usize) -> &'static str {
+        let own = &self.fit.numbers[at];
+        match own {
+            Interval { is_on_bound: true, .. } => "on its bound",
+            _ if own.is_identified() && !self.is_entangled(at) => "identified",
+            _ => "not identified",
+        }
+    }
+
+    /// Whether the structure says that it cannot be told.
+    fn is_entangled(&self, at: usize) -> bool {
+        self.shown.iter().any(|own| own.numbers.contains(&self.numbers[at].name))
+    }
+
+    fn numbers_table(&self) -> Table {
+        let rows = self.numbers.iter().zip(&self.fit.numbers).enumerate();
+        let rows = rows.map(|(at, (own, found))| {
+            let [low, high] = ends(own, found);
+            let verdict = self.verdict(at).to_owned();
+            vec![own.name.clone(), value(own, found.value), low, high, verdict]
+        });
+        Table::new("Numbers", &["", "value", "from", "to", ""], rows)
+    }
+
+    fn tests_table(&self) -> Table {
+        let rows = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
+            let unit = curve.output.unit();
+            let of = |value: f64| quantity(value, unit, FEW);
+            let peak = own.model_peak / own.measured_peak - 1.0;
+            let held_out = own.held_out.map_or_else(String::new, percent_signed);
+            vec![
+                asked.file.clone(),
+                curve.output.key(),
+                of(own.rms),
+                percent_signed(peak),
+                held_out,
+                quantity(own.shift, "s", FEW),
+                of(own.offset),
+            ]
+        });
+        let header =
+            ["file", "output", "rms", "peak off by", "when left out", "clock late by", "zero at"];
+        Table::new("Tests", &header, rows)
+    }
+
+    /// What comes first.
+    fn said_first(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        let fit = &self.fit;
+        if !fit.is_converged {
+            all.push("the search has not converged: these numbers are not a minimum".to_owned());
+        }
+        for (at, own) in
+            self.numbers.iter().enumerate().filter(|own| fit.numbers[own.0].is_on_bound)
+        {
+            let bounds = own.bounds.map(|bound| value(own, bound));
+            let found = value(own, fit.numbers[at].value);
+            all.push(format!(
+                "`{}` is on a bound of {} to {}, at {found}: it has no interval, and those of the others hold only \
+                 with it there",
+                own.name, bounds[0], bounds[1]
+            ));
+        }
+        if !fit.others.is_empty() {
+            let others = fit.others.iter().take(MOST_OTHERS).map(|other| {
+                let each = self.numbers.iter().zip(&other.values);
+                let each =
+                    each.map(|(own, found)| format!("{} = {}", own.name, value(own, *found)));
+                each.collect::<Vec<_>>().join(", ")
+            });
+            let others = others.collect::<Vec<_>>().join("; ");
+            all.push(format!("noise does not tell this minimum from others: {others}"));
+        }
+        all.extend(self.shown.iter().map(undetermined));
+        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, _), own)| {
+            let held_out = own.held_out.filter(|off| off.abs() > MISSED)?;
+            Some(format!(
+                "fitted to the other tests alone, the peak of {} is off by {}: the scene does not carry from one \
+                 test to the other",
+                asked.file,
+                percent_signed(held_out)
+            ))
+        }));
+        let duration = self.scene.run.duration;
+        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
+            let last = curve.rows.last()?.0 - own.shift;
+            (last > duration * (1.0 + BEYOND)).then(|| {
+                format!(
+                    "{} goes on for {} behind the end of the run, where the last value stands: give the scene a \
+                     longer `duration`",
+                    asked.file,
+                    quantity(last - duration, "s", FEW)
+                )
+            })
+        }));
+        all.extend(
+            self.curves
+                .iter()
+                .zip(&fit.tests)
+                .filter_map(|((asked, _), own)| misses(&asked.file, own)),
+        );
+        all
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let fit = &self.fit;
+        let [reached, solved] = fit.reached;
+        let mut all = vec![format!(
+            "{reached} of {solved} starts lead to this minimum; intervals are those of 95 % from the covariance there{}",
+            if fit.correlation > 1.5 {
+                format!(
+                    ", with {} rows for one that is independent, as the residuals follow each other",
+                    significant(fit.correlation, 2)
+                )
+            } else {
+                String::new()
+            }
+        )];
+        if fit.outliers > 0 {
+            let rows = if fit.outliers == 1 { "row is" } else { "rows are" };
+            all.push(format!(
+                "{} {rows} far off and counted by the magnitude of that, not its square; `--robust off` counts all \
+                 alike",
+                fit.outliers
+            ));
+        }
+        if let [_] = fit.tests[..] {
+            all.push(
+                "one test tells nothing of how the scene carries to another height, mass or temperature".to_owned(),
+            );
+        }
+        all
+    }
+
+    /// What stands above the scene.
+    pub(super) fn comments(&self) -> Vec<String> {
+        let tests = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
+            format!(
+                "{} ({}, {} rms)",
+                asked.file,
+                curve.output.key(),
+                quantity(own.rms, curve.output.unit(), FEW)
+            )
+        });
+        let head = format!("fitted to {}", tests.collect::<Vec<_>>().join(", "));
+        let numbers = self.numbers.iter().zip(&self.fit.numbers).enumerate();
+        let numbers = numbers.map(|(at, (own, found))| {
+            let [low, high] = ends(own, found);
+            let verdict = self.verdict(at);
+            format!("{} = {} ({low} to {high}), {verdict}", own.name, value(own, found.value))
+        });
+        [head].into_iter().chain(numbers).collect()
+    }
+}
+
+/// Numbers of which only some constants are determined.
+fn undetermined(own: &Shown) -> String {
+    let constants = own.constants.iter().map(|(name, value, ends, unit)| {
+        let of = |value: f64| quantity(value, unit, DIGITS);
+        let ends =
+            ends.map_or(String::new(), |[low, high]| format!(" ({} to {})", of(low), of(high)));
+        format!("{name} {}{ends}", of(*value))
+    });
+    format!(
+        "{} cannot all be told apart by any test of `{}`, only {}",
+        own.numbers.join(", "),
+        own.element,
+        constants.collect::<Vec<_>>().join(", ")
+    )
+}
+
+fn misses(file: &str, own: &TestFit) -> Option<String> {
+    let off = own.model_peak / own.measured_peak - 1.0;
+    (off.abs() > MISSED).then(|| {
+        format!(
+            "the peak of {file} is missed by {}: noise, a filter that the record went through, or a model that it is \
+             not",
+            percent_signed(off)
+        )
+    })
+}
+
+impl Study for FittedScene {
+    fn warnings(&self) -> Vec<String> {
+        self.said_first()
+    }
+
+    fn text(&self, text: &mut Text) {
+        text.warnings(&self.said_first());
+        text.title(title(&self.scene));
+        text.table(&self.numbers_table());
+        text.table(&self.tests_table());
+        text.blank();
+        text.items(self.remarks());
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.remarks()
+    }
+
+    fn object(&self) -> impl Serialize {
+        let parameters = self.numbers.iter().zip(&self.fit.numbers).enumerate();
+        let parameters = parameters.map(|(at, (own, found))| {
+            let [low, high] = found.ends.map_or([None; 2], |ends| ends.map(Some));
+            let identified = self.verdict(at) == "identified";
+            let on_bound = found.is_on_bound;
+            let (value, unit) = (found.value, &own.si);
+            (own.name.as_str(), object! { value, low, high, unit, identified, on_bound })
+        });
+        let shown = self.shown.iter().map(|own| {
+            let constants = own.constants.iter().map(|(name, value, ends, unit)| {
+                let [low, high] = ends.map_or([None; 2], |ends| ends.map(Some));
+                object! { name, value, low, high, unit }
+            });
+            object! { element: &own.element, parameters: &own.numbers, constants: list(constants) }
+        });
+        let tests = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
+            object! {
+                file: &asked.file,
+                output: curve.output.key(),
+                unit: curve.output.unit(),
+                rms: own.rms,
+                shift: own.shift,
+                offset: own.offset,
+                measured_peak: own.measured_peak,
+                model_peak: own.model_peak,
+                held_out: own.held_out,
+            }
+        });
+        let others = self.fit.others.iter();
+        object! {
+            dashpot: VERSION,
+            title: &self.scene.title,
+            file: &self.scene.file,
+            parameters: parameters.collect::<Pairs<_, _>>(),
+            determined: list(shown),
+            tests: list(tests),
+            converged: self.fit.is_converged,
+            floor: None::<f64>,
+            starts: self.fit.reached,
+            others: list(others.map(|own| object! { values: &own.values, cost: own.cost })),
+            outliers: self.fit.outliers,
+            scene_warnings: said::warning_objects(&self.scene),
+            scene_notes: said::note_objects(&self.scene),
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! What a fit says: tables and sentences.
+
+use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Misfit, Range, RecordFit};
+use dashpot_plot::Table;
+
+use super::Fitted;
+use crate::numbers::{quantity, share};
+
+/// Digits of fitted values.
+const DIGITS: usize = 4;
+/// Digits of times.
+const FEW: usize = 3;
+
+/// Units of a material or a pad.
+pub(super) struct Units {
+    /// Of the strengths: moduli, stiffnesses or compliances.
+    pub(super) strength: &'static str,
+    /// Of the dashpot.
+    dashpot: &'static str,
+    /// Of what answers a history.
+    answer: &'static str,
+}
+
+impl Units {
+    pub(super) fn of(form: Form, is_material: bool) -> Self {
+        let [strength, dashpot, answer] = match (form, is_material) {
+            (Form::Maxwell, true) => ["Pa", "Pa s", "Pa"],
+            (Form::Maxwell, false) => ["N/m", "N s/m", "N"],
+            (Form::Kelvin, true) => ["1/Pa", "1/(Pa s)", "1"],
+            (Form::Kelvin, false) => ["m/N", "m/(N s)", "m"],
+        };
+        Self { strength, dashpot, answer }
+    }
+}
+
+/// The two ends of the spectrum, each with its key in JSON.
+pub(super) fn ends(fit: &LinearFit, is_material: bool) -> [(&'static str, String, Range); 2] {
+    let what = match (fit.form, is_material) {
+        (Form::Maxwell, true) => "modulus",
+        (Form::Maxwell, false) => "stiffness",
+        (Form::Kelvin, _) => "compliance",
+    };
+    let (spring, sum) = match fit.form {
+        Form::Maxwell => ("equilibrium", "instantaneous"),
+        Form::Kelvin => ("instantaneous", "delayed"),
+    };
+    [(spring, format!("{spring} {what}"), fit.spring), (sum, format!("{sum} {what}"), fit.sum)]
+}
+
+/// The table of what the records determine.
+pub(super) fn determined(fitted: &Fitted) -> Table {
+    let unit = fitted.units().strength;
+    let value = |own: f64| quantity(own, unit, DIGITS);
+    let rows = ends(&fitted.fit, fitted.is_material).into_iter().map(|(_, name, range)| {
+        let high = range.high.map_or("no bound".to_owned(), value);
+        let verdict = if range.is_identified() { "identified" } else { "not identified" };
+        vec![name, value(range.value), value(range.low), high, verdict.to_owned()]
+    });
+    Table::new("What the records determine", &["", "value", "from", "to", ""], rows)
+}
+
+/// The table of the branches.
+pub(super) fn branches(fitted: &Fitted) -> Table {
+    let units = fitted.units();
+    let Fitted { fit, .. } = fitted;
+    let (element, time) = match fit.form {
+        Form::Maxwell => ("Maxwell elements", "relaxation time"),
+        Form::Kelvin => ("Kelvin–Voigt elements", "retardation time"),
+    };
+    let single = [
+        ("spring", fit.spectrum.spring, units.strength),
+        ("dashpot", fit.spectrum.dashpot, units.dashpot),
+    ];
+    let single = single.into_iter().filter(|own| own.1 > 0.0);
+    let single = single.map(|(name, own, unit)| vec![name.to_owned(), quantity(own, unit, DIGITS)]);
+    let branches = fit.spectrum.branches.iter().map(|(time, own)| {
+        vec![quantity(*time, "s", DIGITS), quantity(*own, units.strength, DIGITS)]
+    });
+    let caption = format!("{} {element}", fit.spectrum.branches.len());
+    Table::new(caption, &[time, "strength"], single.chain(branches))
+}
+
+/// How far something is from a record.
+fn misfit(own: Misfit, record: &RecordFit, unit: &str) -> String {
+    match record.largest {
+        None => format!("{} rms, {} at most", share(own.rms), share(own.largest)),
+        Some(largest) => format!(
+            "{} rms, {} at most",
+            quantity(own.rms * largest, unit, FEW),
+            quantity(own.largest * largest, unit, FEW)
+        ),
+    }
+}
+
+/// The table of the records.
+pub(super) fn records(fitted: &Fitted) -> Table {
+    let unit = fitted.units().answer;
+    let rows = fitted.records.iter().zip(&fitted.fit.records).map(|(told, own)| {
+        vec![
+            told.file.clone(),
+            told.what.clone(),
+            misfit(own.floor, own, unit),
+            misfit(own.misfit, own, unit),
+        ]
+    });
+    let header = ["file", "record", "no network comes nearer than", "this one"];
+    Table::new("How near", &header, rows)
+}
+
+/// What comes first: where the fit is not what it may be taken for.
+pub(super) fn warnings(fitted: &Fitted) -> Vec<String> {
+    let Fitted { fit, .. } = fitted;
+    let mut all: Vec<String> = Vec::new();
+    for (told, own) in fitted.records.iter().zip(&fit.records) {
+        all.extend(own.contradiction.map(|own| contradicts(&told.file, &own, fit.floor)));
+    }
+    if !fit.is_kept {
+        all.push("refinement did not converge: the stated error is not kept".to_owned());
+    }
+    all
+}
+
+fn contradicts(file: &str, own: &Contradiction, floor: Misfit) -> String {
+    format!(
+        "{file}: storage and loss contradict each other (Kramers–Kronig): no network of springs and dashpots comes \
+         nearer than {} rms, though storage alone is met within {} and loss alone within {}. The storage asks for a \
+         loss that is {} off in the median, the loss for a storage that is {} off. A master curve that is stretched \
+         by its shift factors does that, and so does a loss that is not from the same strain or temperature",
+        share(floor.rms),
+        share(own.storage_alone),
+        share(own.loss_alone),
+        share(own.loss_from_storage),
+        share(own.storage_from_loss),
+    )
+}
+
+/// What is to be known of the fit.
+pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
+    let Fitted { fit, .. } = fitted;
+    let unit = fitted.units().answer;
+    let mut all = Vec::new();
+    all.push(match fit.against {
+        Against::Data => format!(
+            "the fewest branches within {} of every row; the floor is that of any network of springs and dashpots",
+            share(fitted.error)
+        ),
+        Against::Floor => format!(
+            "the rows themselves are further than {} from every passive network: the branches are the fewest within \
+             that of the nearest one",
+            share(fitted.error)
+        ),
+    });
+    for (told, own) in fitted.records.iter().zip(&fit.records).filter(|own| own.1.shift != 0.0) {
+        let largest = own.largest.unwrap_or(1.0);
+        let late = if own.shift > 0.0 { "later" } else { "earlier" };
+        let shift = quantity(own.shift.abs(), "s", FEW);
+        let without = fit.floor_unshifted.map_or(String::new(), |before| {
+            format!(
+                "; without that no network comes nearer than {}",
+                quantity(before.rms * largest, unit, FEW)
+            )
+        });
+        all.push(format!(
+            "{}: what answered is best written down {shift} {late} than what was done{without}; `--shift off` takes \
+             the clocks as they are",
+            told.file
+        ));
+    }
+    all.push(format!(
+        "the ranges are those of all networks that are as near within the noise, with no branch slower than {}, a \
+         fifth of the longest time: a slower one could not be told from a spring",
+        quantity(fit.slowest, "s", FEW)
+    ));
+    all
+}
+
+/// What stands above the model in the scene.
+pub(super) fn comments(fitted: &Fitted) -> Vec<String> {
+    let unit = fitted.units().strength;
+    let value = |own: f64| quantity(own, unit, DIGITS);
+    let files: Vec<&str> = fitted.records.iter().map(|own| own.file.as_str()).collect();
+    let ends = ends(&fitted.fit, fitted.is_material).into_iter().map(|(_, name, range)| {
+        let to = range.high.map_or("no bound".to_owned(), value);
+        let verdict = if range.is_identified() { "identified" } else { "not identified" };
+        format!("{name} {} ({} to {to}), {verdict}", value(range.value), value(range.low))
+    });
+    let head = format!(
+        "fitted to {}; {} rms, no passive network comes nearer than {}",
+        files.join(", "),
+        share(fitted.fit.misfit.rms),
+        share(fitted.fit.floor.rms)
+    );
+    [head].into_iter().chain(ends).collect()
+}

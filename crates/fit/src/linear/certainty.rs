@@ -1,0 +1,180 @@
+//! How well records determine a spectrum: bands on its curve, and what other spectra at the same floor say.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use super::{
+    floor::{Dense, SPRING},
+    kernel::Term,
+    problem::Problem,
+    record::Form,
+    spectrum::Spectrum,
+};
+
+/// Square of the number of standard deviations of a two-sided 95 % interval.
+const CHI_SQUARE: f64 = 3.841_458_820_694_124;
+/// The least share of rows that count as independent.
+const LEAST_SHARE: f64 = 1e-3;
+/// A term as strong as the whole spectrum that adds less than this part to the rows is not seen.
+const UNSEEN: f64 = 1e-6;
+/// A value that may be so many times the best is not bounded.
+const UNBOUNDED: f64 = 1e3;
+
+/// Part of the rows that count as independent: residuals that follow each other tell less than their number.
+pub(super) fn independent_share(problem: &Problem, residual: &DVector<f64>) -> f64 {
+    let (mut product, mut square) = (0.0, 0.0);
+    for (_, rows) in problem.parts() {
+        let own = &residual.as_slice()[rows];
+        product += own.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
+        square += own.iter().map(|own| own * own).sum::<f64>();
+    }
+    let follows = if square > 0.0 { (product / square).max(0.0) } else { 0.0 };
+    ((1.0 - follows) / (1.0 + follows)).clamp(LEAST_SHARE, 1.0)
+}
+
+/// The covariance of the logarithms of a refined spectrum, and what bands on its curve follow from it.
+#[derive(Debug, Clone)]
+pub struct Band {
+    form: Form,
+    spectrum: Spectrum,
+    /// Terms of the nearest network.
+    nearest: Spectrum,
+    covariance: DMatrix<f64>,
+}
+
+impl Band {
+    pub(super) fn of(
+        problem: &Problem,
+        spectrum: &Spectrum,
+        (nearest, floor): (&Spectrum, &DVector<f64>),
+    ) -> Option<Self> {
+        let (_, jacobian) = spectrum.linearised(problem);
+        let free = problem.rows().saturating_sub(jacobian.ncols()).max(1) as f64;
+        let share = independent_share(problem, floor);
+        let variance = floor.norm_squared() / (free * share);
+        let mut normal = jacobian.tr_mul(&jacobian);
+        let largest = normal.diagonal().max();
+        (0..normal.nrows()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
+        let covariance = Cholesky::new(normal)?.inverse() * variance;
+        let (spectrum, nearest) = (spectrum.clone(), nearest.clone());
+        Some(Self { form: problem.form, spectrum, nearest, covariance })
+    }
+
+    /// The relaxation modulus, or the creep compliance, at a time \[s\], and the half-width of its 95 % band: that of
+    /// noise, and what fewer branches change in the curve of the nearest network.
+    pub fn at(&self, time: f64) -> (f64, f64) {
+        let strength = |(term, strength): (Term, f64)| match (self.form, term) {
+            (_, Term::Spring) => strength,
+            (Form::Maxwell, Term::Dashpot) => 0.0,
+            (Form::Kelvin, Term::Dashpot) => strength * time,
+            (Form::Maxwell, Term::Branch(own)) => strength * (-time / own).exp(),
+            (Form::Kelvin, Term::Branch(own)) => strength * -(-time / own).exp_m1(),
+        };
+        let of_time = |(own, strength): &(f64, f64)| {
+            let change = strength * time / own * (-time / own).exp();
+            if self.form == Form::Maxwell { change } else { -change }
+        };
+        let gradient: Vec<f64> = self
+            .spectrum
+            .terms()
+            .map(strength)
+            .chain(self.spectrum.branches.iter().map(of_time))
+            .collect();
+        let gradient = DVector::from_vec(gradient);
+        let variance = gradient.dot(&(&self.covariance * &gradient));
+        let value = self.spectrum.at(self.form, time);
+        let fewer = (value - self.nearest.at(self.form, time)).abs();
+        (value, (CHI_SQUARE * variance.max(0.0)).sqrt() + fewer)
+    }
+}
+
+/// From where to where a number may be while a passive network comes as near to the records as the nearest one does,
+/// within their noise; without an upper end where nothing bounds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// That of the fewest branches.
+    pub value: f64,
+    /// The lower end.
+    pub low: f64,
+    /// The upper end; `None` where there is none.
+    pub high: Option<f64>,
+}
+
+/// A range wider than this part of its value determines nothing.
+const IDENTIFIED: f64 = 0.2;
+
+impl Range {
+    /// Whether records determine it: within a tenth either way.
+    pub fn is_identified(&self) -> bool {
+        self.high.is_some_and(|high| high - self.low <= IDENTIFIED * self.value)
+    }
+
+    /// The range with the value of another network that is as near.
+    pub(super) fn around(self, value: f64) -> Self {
+        Self { value, low: self.low.min(value), high: self.high.map(|own| own.max(value)) }
+    }
+
+    pub(super) fn joined(self, other: Self) -> Self {
+        let high = self.high.zip(other.high).map(|(one, other)| one.max(other));
+        Self { low: self.low.min(other.low), high, ..self }
+    }
+}
+
+/// The two ends of a spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// The spring alone: equilibrium modulus, instantaneous compliance.
+    Spring,
+    /// The spring and all branches: instantaneous modulus, compliance when all has crept.
+    Sum,
+}
+
+/// The largest sum of squares that noise explains.
+pub(super) fn tolerated(problem: &Problem, residual: &DVector<f64>) -> f64 {
+    let independent = independent_share(problem, residual) * problem.rows() as f64;
+    residual.norm_squared() * (1.0 + CHI_SQUARE / independent.max(1.0))
+}
+
+/// The range of an end within a sum of squares; `None` where no network stays within it.
+pub(super) fn range(dense: &Dense, end: End, tolerated: f64) -> Option<Range> {
+    let nearest = dense.minimum();
+    if nearest.residual.norm_squared() > tolerated {
+        return None;
+    }
+    let is_taken = |at: usize| match end {
+        End::Spring => at == SPRING,
+        End::Sum => !matches!(dense.terms[at], Term::Dashpot),
+    };
+    let sum = |values: &[f64]| -> f64 {
+        values.iter().enumerate().filter(|own| is_taken(own.0)).map(|own| own.1).sum()
+    };
+    let taken: Vec<f64> =
+        (0..dense.terms.len()).map(|at| if is_taken(at) { 1.0 } else { 0.0 }).collect();
+    let scale: f64 = nearest.values.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    let least = UNSEEN * dense.problem.square().sqrt() / scale;
+    let is_bounded = (0..taken.len()).all(|at| !is_taken(at) || dense.problem.length(at) > least);
+    let value = sum(&nearest.values);
+    let reached = |way: f64| {
+        let (mut inside, mut weak, mut strong) = (nearest.clone(), -LN_PULLS, LN_PULLS);
+        let mut problem = dense.problem.clone();
+        let unit = dense.problem.square() / scale;
+        for _ in 0..STEPS {
+            let middle = 0.5 * (weak + strong);
+            let pull = way * middle.exp() * unit;
+            problem.pull(&taken.iter().map(|own| own * pull).collect::<Vec<_>>());
+            let found = problem.minimum(&inside.passive());
+            if found.residual.norm_squared() <= tolerated {
+                (inside, weak) = (found, middle);
+            } else {
+                strong = middle;
+            }
+        }
+        sum(&inside.values)
+    };
+    let high = if is_bounded { reached(1.0).max(value) } else { f64::INFINITY };
+    let high = (high <= UNBOUNDED * scale).then_some(high);
+    Some(Range { value, low: reached(-1.0).min(value), high })
+}
+
+/// Pulls from e^−20 to e^20 of what a network's residual would weigh are tried, by so many bisections.
+const LN_PULLS: f64 = 20.0;
+const STEPS: usize = 14;

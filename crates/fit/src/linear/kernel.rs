@@ -1,0 +1,314 @@
+//! What a term of a spectrum adds to the rows of a record, and how that changes with its time.
+
+use super::record::Record;
+
+/// A term of a spectrum, of unit strength.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Term {
+    /// A spring: in the Maxwell form the equilibrium modulus, in the Kelvin form the instantaneous compliance.
+    Spring,
+    /// A dashpot: in the Maxwell form a viscosity, in the Kelvin form a fluidity.
+    Dashpot,
+    /// A branch with this time \[s\].
+    Branch(f64),
+}
+
+/// Rows of one kind, each with its weight.
+#[derive(Debug, Clone)]
+pub(super) struct Channel {
+    kernel: Kernel,
+    /// The measured values.
+    pub(super) values: Vec<f64>,
+    /// What a deviation is multiplied by, so that it is a part of the value or of the largest.
+    pub(super) weights: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum Kernel {
+    /// `e^(−t/τ)` at these times.
+    Relaxation(Vec<f64>),
+    /// `1 − e^(−t/τ)` at these times.
+    Creep(Vec<f64>),
+    /// `ω²τ²/(1 + ω²τ²)` at these angular frequencies.
+    Storage(Vec<f64>),
+    /// `ωτ/(1 + ω²τ²)` at these angular frequencies.
+    Loss(Vec<f64>),
+    /// The answer to a strain, straight between corners.
+    Strained(History),
+    /// The answer to a stress, straight between corners.
+    Stressed(History),
+}
+
+/// What was done, straight between corners and zero before the first, and when the answer was looked at.
+#[derive(Debug, Clone)]
+struct History {
+    corners: Vec<(f64, f64)>,
+    /// For each instant the number of corners that have passed, and the time since the last one.
+    instants: Vec<(usize, f64)>,
+}
+
+impl Channel {
+    /// The channels of a record, whose answer was written down `shift` \[s\] later than what was done.
+    pub(super) fn of(record: &Record, shift: f64) -> Vec<Self> {
+        let relative = |kernel, values: Vec<f64>| {
+            let weights = values.iter().map(|own| own.recip()).collect();
+            Self { kernel, values, weights }
+        };
+        let pairs = |rows: &[(f64, f64)]| -> (Vec<f64>, Vec<f64>) { rows.iter().copied().unzip() };
+        let column =
+            |rows: &[[f64; 3]], at: usize| -> Vec<f64> { rows.iter().map(|own| own[at]).collect() };
+        let driven = |rows: &[[f64; 3]], is_strained| {
+            let corners: Vec<(f64, f64)> = rows.iter().map(|own| (own[0], own[1])).collect();
+            let instants = rows.iter().map(|own| place(&corners, own[0] - shift)).collect();
+            let history = History { corners, instants };
+            let values = column(rows, 2);
+            let largest = values.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
+            let weights = vec![largest.recip(); values.len()];
+            let kernel =
+                if is_strained { Kernel::Strained(history) } else { Kernel::Stressed(history) };
+            Self { kernel, values, weights }
+        };
+        match record {
+            Record::Relaxation(rows) => {
+                let (times, values) = pairs(rows);
+                vec![relative(Kernel::Relaxation(times), values)]
+            }
+            Record::Creep(rows) => {
+                let (times, values) = pairs(rows);
+                vec![relative(Kernel::Creep(times), values)]
+            }
+            Record::Storage(rows) => {
+                let (omegas, values) = pairs(rows);
+                vec![relative(Kernel::Storage(omegas), values)]
+            }
+            Record::Loss(rows) => {
+                let (omegas, values) = pairs(rows);
+                vec![relative(Kernel::Loss(omegas), values)]
+            }
+            Record::Oscillation(rows) => {
+                let omegas = column(rows, 0);
+                vec![
+                    relative(Kernel::Storage(omegas.clone()), column(rows, 1)),
+                    relative(Kernel::Loss(omegas), column(rows, 2)),
+                ]
+            }
+            Record::Strained(rows) => vec![driven(rows, true)],
+            Record::Stressed(rows) => vec![driven(rows, false)],
+        }
+    }
+
+    /// What a term adds to each row, and for a branch how that changes with the logarithm of its time.
+    pub(super) fn term(&self, term: Term, value: &mut [f64], slope: &mut [f64]) {
+        slope.fill(0.0);
+        match term {
+            Term::Spring => self.spring(value),
+            Term::Dashpot => self.dashpot(value),
+            Term::Branch(time) => self.branch(time, value, slope),
+        }
+    }
+
+    fn spring(&self, value: &mut [f64]) {
+        match &self.kernel {
+            Kernel::Relaxation(_) | Kernel::Creep(_) | Kernel::Storage(_) => value.fill(1.0),
+            Kernel::Loss(_) => value.fill(0.0),
+            Kernel::Strained(history) | Kernel::Stressed(history) => history.driven(value),
+        }
+    }
+
+    fn dashpot(&self, value: &mut [f64]) {
+        match &self.kernel {
+            Kernel::Relaxation(_) | Kernel::Storage(_) => value.fill(0.0),
+            Kernel::Creep(at) | Kernel::Loss(at) => value.copy_from_slice(at),
+            Kernel::Strained(history) => history.rate(value),
+            Kernel::Stressed(history) => history.integral(value),
+        }
+    }
+
+    fn branch(&self, time: f64, value: &mut [f64], slope: &mut [f64]) {
+        let each = value.iter_mut().zip(slope.iter_mut());
+        match &self.kernel {
+            Kernel::Relaxation(times) => each.zip(times).for_each(|((value, slope), t)| {
+                let x = t / time;
+                *value = (-x).exp();
+                *slope = x * *value;
+            }),
+            Kernel::Creep(times) => each.zip(times).for_each(|((value, slope), t)| {
+                let x = t / time;
+                *value = -(-x).exp_m1();
+                *slope = -x * (-x).exp();
+            }),
+            Kernel::Storage(omegas) => each.zip(omegas).for_each(|((value, slope), omega)| {
+                let [storage, loss] = oscillating(omega * time);
+                (*value, *slope) = (storage, 2.0 * loss * loss);
+            }),
+            Kernel::Loss(omegas) => each.zip(omegas).for_each(|((value, slope), omega)| {
+                let [storage, loss] = oscillating(omega * time);
+                (*value, *slope) = (loss, loss * (1.0 - 2.0 * storage));
+            }),
+            Kernel::Strained(history) => history.relaxing(time, value, slope),
+            Kernel::Stressed(history) => {
+                history.relaxing(time, value, slope);
+                let mut driven = vec![0.0; value.len()];
+                history.driven(&mut driven);
+                value.iter_mut().zip(driven).for_each(|(own, driven)| *own = driven - *own);
+                slope.iter_mut().for_each(|own| *own = -*own);
+            }
+        }
+    }
+}
+
+/// Storage and loss of a Maxwell element of unit modulus at `x = ωτ`.
+fn oscillating(x: f64) -> [f64; 2] {
+    let inverse = x.recip();
+    [1.0 / (1.0 + inverse * inverse), 1.0 / (x + inverse)]
+}
+
+/// How many corners have passed at an instant, and the time since the last of them.
+fn place(corners: &[(f64, f64)], time: f64) -> (usize, f64) {
+    let passed = corners.partition_point(|own| own.0 <= time);
+    (passed, if passed == 0 { 0.0 } else { time - corners[passed - 1].0 })
+}
+
+impl History {
+    /// Change per second in the piece behind so many corners.
+    fn slope(&self, passed: usize) -> f64 {
+        match (self.corners.get(passed.wrapping_sub(1)), self.corners.get(passed)) {
+            (Some(from), Some(to)) => (to.1 - from.1) / (to.0 - from.0),
+            _ => 0.0,
+        }
+    }
+
+    fn at_corner(&self, passed: usize) -> f64 {
+        if passed == 0 { 0.0 } else { self.corners[passed - 1].1 }
+    }
+
+    fn driven(&self, value: &mut [f64]) {
+        for (own, &(passed, since)) in value.iter_mut().zip(&self.instants) {
+            *own = self.at_corner(passed) + self.slope(passed) * since;
+        }
+    }
+
+    /// The rate: at a corner that of the piece which ends there.
+    fn rate(&self, value: &mut [f64]) {
+        for (own, &(passed, since)) in value.iter_mut().zip(&self.instants) {
+            let piece = if since > 0.0 { passed } else { passed.saturating_sub(1) };
+            *own = self.slope(piece);
+        }
+    }
+
+    fn integral(&self, value: &mut [f64]) {
+        let mut sums = vec![0.0, 0.0];
+        for pair in self.corners.windows(2) {
+            let area = 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0);
+            sums.push(sums[sums.len() - 1] + area);
+        }
+        for (own, &(passed, since)) in value.iter_mut().zip(&self.instants) {
+            let slope = self.slope(passed);
+            *own = sums[passed] + (self.at_corner(passed) + 0.5 * slope * since) * since;
+        }
+    }
+
+    /// `∫ e^(−(t−s)/τ) dx(s)`, and its change with `ln τ`.
+    fn relaxing(&self, time: f64, value: &mut [f64], slope: &mut [f64]) {
+        let step = |(own, change): (f64, f64), rate: f64, length: f64| {
+            let x = length / time;
+            let left = (-x).exp();
+            let grown = time * -(-x).exp_m1();
+            (
+                own * left + rate * grown,
+                (change + own * x) * left + rate * (grown - time * x * left),
+            )
+        };
+        let mut states = Vec::with_capacity(self.corners.len() + 1);
+        states.push((0.0, 0.0));
+        // What stands there at the first instant came suddenly.
+        states.extend(self.corners.first().map(|own| (own.1, 0.0)));
+        for (at, pair) in self.corners.windows(2).enumerate() {
+            states.push(step(states[at + 1], self.slope(at + 1), pair[1].0 - pair[0].0));
+        }
+        for ((own, change), &(passed, since)) in value.iter_mut().zip(slope).zip(&self.instants) {
+            (*own, *change) = step(states[passed], self.slope(passed), since);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn records() -> Vec<Record> {
+        let pairs: Vec<(f64, f64)> = [0.1, 0.4, 1.0, 3.0, 9.0].map(|t| (t, 2.0)).to_vec();
+        let history = vec![
+            [-0.5, 0.3, 0.0],
+            [0.0, 0.8, 1.0],
+            [0.7, 1.2, 2.0],
+            [2.0, 1.2, 3.0],
+            [5.0, -0.4, 1.0],
+        ];
+        vec![
+            Record::Relaxation(pairs.clone()),
+            Record::Creep(pairs.clone()),
+            Record::Storage(pairs.clone()),
+            Record::Loss(pairs),
+            Record::Strained(history.clone()),
+            Record::Stressed(history),
+        ]
+    }
+
+    #[test]
+    fn slopes_are_the_derivatives_of_values() {
+        for record in records() {
+            for (channel, time) in
+                Channel::of(&record, 0.1).iter().flat_map(|own| [0.03, 0.9, 40.0].map(|t| (own, t)))
+            {
+                let count = channel.values.len();
+                let at = |time: f64| {
+                    let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
+                    channel.term(Term::Branch(time), &mut value, &mut slope);
+                    (value, slope)
+                };
+                let step = 1e-5_f64;
+                let (low, high) = (at(time * (-step).exp()).0, at(time * step.exp()).0);
+                let (_, slope) = at(time);
+                for row in 0..count {
+                    let difference = (high[row] - low[row]) / (2.0 * step);
+                    assert!((difference - slope[row]).abs() < 1e-8, "{record:?} {time} {row}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn slow_branches_are_springs_and_fast_ones_dashpots() {
+        let row = |channel: &Channel, term| {
+            let count = channel.values.len();
+            let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
+            channel.term(term, &mut value, &mut slope);
+            value
+        };
+        let [strained, stressed] = [&records()[4], &records()[5]].map(|own| {
+            let all = Channel::of(own, 0.0);
+            all[0].clone()
+        });
+        let (slow, spring) = (row(&strained, Term::Branch(1e9)), row(&strained, Term::Spring));
+        assert!(slow.iter().zip(&spring).all(|(one, other)| (one - other).abs() < 1e-8));
+        // A fast Maxwell element of unit viscosity; the first row is the jump.
+        let (fast, dashpot) = (row(&strained, Term::Branch(1e-3)), row(&strained, Term::Dashpot));
+        let pairs = fast.iter().zip(&dashpot).skip(1);
+        assert!(pairs.into_iter().all(|(one, other)| (one / 1e-3 - other).abs() < 1e-9));
+        // A slow Kelvin–Voigt element of unit fluidity flows like a dashpot.
+        let (slow, dashpot) = (row(&stressed, Term::Branch(1e6)), row(&stressed, Term::Dashpot));
+        assert!(slow.iter().zip(&dashpot).all(|(one, other)| (one * 1e6 - other).abs() < 1e-4));
+    }
+
+    #[test]
+    fn a_ramp_relaxes_as_in_closed_form() {
+        let rows: Vec<[f64; 3]> = [0.0, 0.3, 1.1, 2.0].map(|t| [t, 3.0 * t, 1.0]).to_vec();
+        let channel = &Channel::of(&Record::Strained(rows.clone()), 0.0)[0];
+        let (mut value, mut slope) = (vec![0.0; 4], vec![0.0; 4]);
+        channel.term(Term::Branch(0.7), &mut value, &mut slope);
+        for (own, row) in value.iter().zip(&rows) {
+            assert!((own - 2.1 * (1.0 - (-row[0] / 0.7_f64).exp())).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Where a search begins.
+
+use dashpot_numerics::Stream;
+
+use super::{NetworkSettings, Number};
+
+/// The scene's own values, and others, each of which has a part of every range that no other has (a Latin hypercube
+/// of logarithms).
+pub(super) fn starts(numbers: &[Number], settings: NetworkSettings) -> Vec<Vec<f64>> {
+    let mut all = vec![numbers.iter().map(|own| own.start.clamp(own.low, own.high)).collect()];
+    let count = settings.starts.saturating_sub(1);
+    let mut stream = Stream::new(settings.seed);
+    let columns: Vec<Vec<f64>> = numbers
+        .iter()
+        .map(|own| {
+            let mut parts: Vec<usize> = (0..count).collect();
+            (1..count).rev().for_each(|at| parts.swap(at, stream.below(at + 1)));
+            let value = |part: usize| {
+                let share = (part as f64 + stream.share()) / count as f64;
+                own.low * (own.high / own.low).powf(share)
+            };
+            parts.into_iter().map(value).collect()
+        })
+        .collect();
+    all.extend((0..count).map(|at| columns.iter().map(|own| own[at]).collect()));
+    all
+}

@@ -1,0 +1,230 @@
+//! Bounded least squares: the only file that names the optimiser.
+
+use std::convert::Infallible;
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, HuberLoss,
+    Jacobian, Residual, RobustLeastSquares, TerminationCode, TrustRegionReflective,
+};
+use nalgebra::{DMatrix, DVector};
+
+/// What is to be made small.
+pub trait Residuals {
+    /// The residuals; numbers that are not finite where there are none.
+    fn residual(&self, unknowns: &[f64]) -> Vec<f64>;
+
+    /// Their derivatives, one column for each unknown.
+    fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64>;
+}
+
+/// Where the search ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Optimum {
+    /// The unknowns.
+    pub unknowns: Vec<f64>,
+    /// Half the sum of squares, or the robust sum.
+    pub cost: f64,
+    /// Whether a test of convergence was met.
+    pub is_converged: bool,
+}
+
+/// Steps of one search.
+const MOST_STEPS: u64 = 100;
+/// Convergence: part by which a step lowers the sum, and scaled gradient.
+const COST_CHANGE: f64 = 1e-10;
+const GRADIENT: f64 = 1e-12;
+
+/// The least squares within bounds, from a start between them; with a robust scale residuals beyond it count by their
+/// magnitude (Huber).
+pub fn least_squares(
+    problem: &dyn Residuals,
+    [lower, upper]: [&[f64]; 2],
+    start: &[f64],
+    robust_scale: Option<f64>,
+) -> Option<Optimum> {
+    let bounded = Bounded { problem, lower: lower.to_vec(), upper: upper.to_vec() };
+    let solver = TrustRegionReflective::new()
+        .with_absolute_scaled_gradient_tolerance(GRADIENT)
+        .with_relative_cost_change_tolerance(COST_CHANGE);
+    let (unknowns, cost, code) = if let Some(scale) = robust_scale {
+        let robust = RobustLeastSquares::new(bounded, HuberLoss).with_scale(scale);
+        let own = Executor::from_start(robust, solver, start.to_vec()).max_iter(MOST_STEPS).run();
+        let own = own.ok()?;
+        (own.param().clone(), own.cost(), own.report.termination.code())
+    } else {
+        let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
+        let own = own.ok()?;
+        (own.param().clone(), own.cost(), own.report.termination.code())
+    };
+    let is_converged = match code {
+        TerminationCode::MaxIter => false,
+        TerminationCode::SolverFailed | TerminationCode::NumericalNoProgress => {
+            is_settled(problem, [lower, upper], &unknowns, (robust_scale, cost))
+        }
+        _ => true,
+    };
+    cost.is_finite().then_some(Optimum { unknowns, cost, is_converged })
+}
+
+/// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one.
+const SETTLED: f64 = 1e-7;
+
+/// Whether no step between the bounds lowers the sum any more, where rounding ended the search.
+fn is_settled(
+    problem: &dyn Residuals,
+    [lower, upper]: [&[f64]; 2],
+    unknowns: &[f64],
+    (robust_scale, cost): (Option<f64>, f64),
+) -> bool {
+    let counted = |own: f64| robust_scale.map_or(own, |scale| own.clamp(-scale, scale));
+    let left = problem.residual(unknowns).into_iter().map(counted).collect();
+    let jacobian = problem.jacobian(unknowns);
+    let gradient = jacobian.tr_mul(&DVector::from_vec(left));
+    let is_free = |at: &usize| {
+        let near = SETTLED * (upper[*at] - lower[*at]);
+        unknowns[*at] > lower[*at] + near && unknowns[*at] < upper[*at] - near
+    };
+    let free: Vec<usize> = (0..unknowns.len()).filter(is_free).collect();
+    let columns = jacobian.select_columns(&free);
+    let mut normal = columns.tr_mul(&columns);
+    let largest = if free.is_empty() { 0.0 } else { normal.diagonal().max() };
+    (0..free.len()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
+    let right = DVector::from_iterator(free.len(), free.iter().map(|at| gradient[*at]));
+    let step = normal.cholesky().map(|own| own.solve(&right));
+    step.is_some_and(|step| 0.5 * step.dot(&right) <= SETTLED * cost)
+}
+
+/// The problem as the optimiser wants it.
+struct Bounded<'p> {
+    problem: &'p dyn Residuals,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Constraints for Bounded<'_> {
+    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+    }
+}
+
+impl Residual for Bounded<'_> {
+    type Param = Vec<f64>;
+    type Output = Vec<f64>;
+    type Error = Infallible;
+
+    fn residual(&self, unknowns: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
+        Ok(self.problem.residual(unknowns))
+    }
+}
+
+impl Jacobian for Bounded<'_> {
+    type Jacobian = DenseMatrix;
+
+    fn jacobian(&self, unknowns: &Vec<f64>) -> Result<DenseMatrix, Infallible> {
+        let own = self.problem.jacobian(unknowns);
+        let by_rows = own.transpose();
+        Ok(DenseMatrix::from_row_slice(own.nrows(), own.ncols(), by_rows.as_slice()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `y = a e^(−b t) + c` at 40 times, with a row that is far off.
+    struct Decay {
+        outlier: f64,
+    }
+
+    impl Decay {
+        fn times() -> impl Iterator<Item = f64> {
+            (0..40).map(|at| 0.1 * f64::from(at))
+        }
+    }
+
+    impl Residuals for Decay {
+        fn residual(&self, unknowns: &[f64]) -> Vec<f64> {
+            let [a, b, c] = [0, 1, 2].map(|at| unknowns[at]);
+            let measured = |t: f64| 3.0 * (-1.3 * t).exp() + 0.5 + 0.01 * (7.0 * t).sin();
+            let rows = Self::times().enumerate();
+            rows.map(|(at, t)| {
+                let outlier = if at == 20 { self.outlier } else { 0.0 };
+                a * (-b * t).exp() + c - measured(t) - outlier
+            })
+            .collect()
+        }
+
+        fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64> {
+            let [a, b] = [0, 1].map(|at| unknowns[at]);
+            let times: Vec<f64> = Self::times().collect();
+            DMatrix::from_fn(40, 3, |row, column| {
+                let decayed = (-b * times[row]).exp();
+                [decayed, -a * times[row] * decayed, 1.0][column]
+            })
+        }
+    }
+
+    /// The method of Levenberg and Marquardt with steps cut at the bounds: another way to the same minimum.
+    fn levenberg(problem: &dyn Residuals, [lower, upper]: [&[f64]; 2], start: &[f64]) -> Vec<f64> {
+        let square = |own: &[f64]| problem.residual(own).iter().map(|own| own * own).sum::<f64>();
+        let (mut best, mut damping) = (start.to_vec(), 1e-2);
+        for _ in 0..500 {
+            let jacobian = problem.jacobian(&best);
+            let gradient = jacobian.tr_mul(&DVector::from_vec(problem.residual(&best)));
+            let is_held = |at: usize| {
+                best[at] <= lower[at] && gradient[at] > 0.0
+                    || best[at] >= upper[at] && gradient[at] < 0.0
+            };
+            let free: Vec<usize> = (0..best.len()).filter(|at| !is_held(*at)).collect();
+            let normal = jacobian.tr_mul(&jacobian);
+            let matrix = DMatrix::from_fn(free.len(), free.len(), |row, column| {
+                let own = normal[(free[row], free[column])];
+                if row == column { own * (1.0 + damping) } else { own }
+            });
+            let right = DVector::from_iterator(free.len(), free.iter().map(|at| -gradient[*at]));
+            let Some(step) = matrix.lu().solve(&right) else { break };
+            let mut next = best.clone();
+            for (at, step) in free.iter().zip(step.iter()) {
+                next[*at] = (next[*at] + step).clamp(lower[*at], upper[*at]);
+            }
+            if square(&next) < square(&best) {
+                best = next;
+                damping *= 0.3;
+            } else {
+                damping *= 4.0;
+            }
+        }
+        best
+    }
+
+    #[test]
+    fn both_ways_lead_to_the_same_minimum_within_bounds_and_on_them() {
+        let problem = Decay { outlier: 0.0 };
+        for upper in [[10.0, 10.0, 10.0], [10.0, 1.1, 10.0], [2.5, 10.0, 10.0]] {
+            let bounds = [&[0.1, 0.01, 0.0][..], &upper[..]];
+            for start in [[0.2, 0.1, 0.1], [2.4, 1.0, 4.0]] {
+                let own = least_squares(&problem, bounds, &start, None).unwrap();
+                let other = levenberg(&problem, bounds, &start);
+                assert!(own.is_converged, "{own:?}");
+                for (one, other) in own.unknowns.iter().zip(&other) {
+                    assert!((one - other).abs() < 1e-4, "{own:?} {other:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_that_is_far_off_does_not_pull_the_robust_minimum() {
+        let bounds = [&[0.1, 0.01, 0.0][..], &[10.0; 3][..]];
+        let at = |outlier: f64, scale| {
+            least_squares(&Decay { outlier }, bounds, &[1.0, 1.0, 1.0], scale).unwrap().unknowns
+        };
+        let [clean, robust, plain] = [at(0.0, None), at(5.0, Some(0.02)), at(5.0, None)];
+        let off = |own: &[f64]| {
+            own.iter().zip(&clean).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+        };
+        assert!(off(&robust) < 0.01 && off(&plain) > 0.1, "{robust:?} {plain:?}");
+    }
+}

@@ -1,0 +1,61 @@
+"""Makes the records of docs/fit.md: a gel of three modes in oscillation, and two drops on a pad.
+
+The pad is a Zener element of 30 kN/m, 60 kN/m and 200 N s/m under 4 kg; its equations are integrated here by the classical
+Runge-Kutta method, until the force falls to zero. Noise has a fixed seed.
+"""
+
+import math
+import random
+
+stream = random.Random(11)
+
+
+def gel():
+    modes = [(0.4e-3, 3.0), (4e-3, 2.0), (60e-3, 1.2)]
+    rows = ["f,E',E''", "Hz,MPa,MPa"]
+    for step in range(37):
+        frequency = 10 ** (-0.5 + step / 9)
+        omega = 2 * math.pi * frequency
+        storage, loss = 2.0, 0.0
+        for time, modulus in modes:
+            x = omega * time
+            storage += modulus * x * x / (1 + x * x)
+            loss += modulus * x / (1 + x * x)
+        noise = [1 + 0.005 * stream.gauss(0, 1) for _ in range(2)]
+        rows.append(f"{frequency:.5g},{storage * noise[0]:.5g},{loss * noise[1]:.5g}")
+    return rows
+
+
+def drop(speed, late, zero):
+    mass, spring, branch, dashpot = 4.0, 30e3, 60e3, 200.0
+
+    def rates(state):
+        depth, velocity, force = state
+        return (velocity, -(spring * depth + force) / mass, branch * velocity - branch / dashpot * force)
+
+    step, every = 1e-6, 100
+    state, forces, time = (0.0, speed, 0.0), [], 0.0
+    for at in range(40_001):
+        total = spring * state[0] + state[2]
+        if at > 10 and total <= 0:
+            break
+        if at % every == 0:
+            forces.append(total)
+        k1 = rates(state)
+        k2 = rates([s + step / 2 * k for s, k in zip(state, k1)])
+        k3 = rates([s + step / 2 * k for s, k in zip(state, k2)])
+        k4 = rates([s + step * k for s, k in zip(state, k3)])
+        state = [s + step / 6 * (a + 2 * b + 2 * c + d) for s, a, b, c, d in zip(state, k1, k2, k3, k4)]
+    before = round(late * 1e4)
+    rows = ["t [ms],acc [g]"]
+    for at in range(360):
+        index = at - before
+        force = forces[index] if 0 <= index < len(forces) else 0.0
+        reading = force / mass / 9.80665 + zero + 0.3 * stream.gauss(0, 1)
+        rows.append(f"{at / 10:.1f},{reading:.3f}")
+    return rows
+
+
+for name, rows in [("dma", gel()), ("low", drop(2.0, 2.0e-3, 0.7)), ("high", drop(3.2, 3.1e-3, -0.4))]:
+    with open(f"{name}.csv", "w") as file:
+        file.write("\n".join(rows) + "\n")
