@@ -10,6 +10,7 @@ use dashpot::{
     network::{
         Element,
         elements::{Foam, Foundation, Indenter, Shape, Spring, TableSpring},
+        phases::{Phase, PhaseLaw},
     },
     rheology::Tree,
     scene::{ReadOptions, Scene, read, write_model},
@@ -164,6 +165,9 @@ fn ball_on(own: &str) -> String {
         foam = {{ foam = {{ modulus = "2 MPa", plateau = "0.1 MPa", densification = "20 kPa", exponent = 3 }} }}
         felt = {{ table-spring = [[0, 0], ["20 %", "30 kPa"], ["50 %", "60 kPa"], ["70 %", "400 kPa"]] }}
         gel = {{ kelvin-voigt = {{ spring = "1 MPa", dashpot = "1 kPa s" }} }}
+        crushed = {{ hysteretic-table = {{ loading = [[0, 0], ["70 %", "0.7 MPa"]], unloading = [["14 %", 0], ["70 %", "0.7 MPa"]] }} }}
+        bent = {{ piecewise-spring = [[0, 0], ["20 %", "30 kPa"], ["70 %", "400 kPa"]] }}
+        pushed = {{ piecewise-spring = [[0, "1 kPa"], ["20 %", "30 kPa"]] }}
         row = {{ series = [{{ spring = "1 MPa" }}, {{ spring = "2 MPa" }}] }}
         both = {{ parallel = [{{ material = "felt" }}, {{ spring = "0.2 MPa" }}] }}
         [nodes]
@@ -297,6 +301,69 @@ fn without_a_shape_nothing_is_added() {
     assert!(system.primitives.iter().all(|part| part.element.kind() != "foundation"));
 }
 
+#[test]
+fn columns_of_straight_lines_add_up_to_the_closed_form_of_each() {
+    let own = made(&format!("material = \"bent\", {BALL}"));
+    // Slopes in Pa per metre of shortening; beyond the corner, at 20 % of 20 mm, the second one adds to the first.
+    let [first, second] = [30e3 / 0.2, 370e3 / 0.5].map(|slope| slope / THICKNESS);
+    let cap = |depth: f64| PI * (0.05 * depth * depth - depth.powi(3) / 3.0);
+    for y in [1e-4, 0.003, 0.004, 0.0041, 0.009, 0.013] {
+        let force = first * cap(y) + (second - first) * cap((y - 0.004).max(0.0));
+        close(own.force(y, 0.0), force, 1e-13, "two lines");
+    }
+    let kept = run(&format!("material = \"bent\", {BALL}"), "bdf");
+    let measure = kept.measure("pad.energy").unwrap();
+    // Of the 2 J that it takes up, to the accuracy that is asked for.
+    assert!(measure.value.unwrap().abs() <= measure.error.unwrap().max(2e-3), "{measure:?}");
+}
+
+#[test]
+fn columns_that_unload_on_another_curve_lose_their_share_each() {
+    // A column of the set r gives k d² (1/3 − r/2 + r³/6)/(1 − r) back of k d²/2, whatever its depth: so does the pad.
+    let set: f64 = 0.2;
+    let back = 2.0 * (1.0 / 3.0 - set / 2.0 + set.powi(3) / 6.0) / (1.0 - set);
+    let found = run(&format!("material = \"crushed\", {BALL}"), "bdf");
+    for (key, exact) in
+        [("pad.energy", 2.0 * (1.0 - back)), ("pad.coefficient-of-restitution", back.sqrt())]
+    {
+        let measure = found.measure(key).unwrap();
+        let (value, error) = (measure.value.unwrap(), measure.error.unwrap());
+        assert!((value - exact).abs() <= error, "{key}: {value} ± {error}, not {exact}");
+        assert!(error <= 5e-3 * exact, "{key}: {error}");
+    }
+    let closure = found.energy.closure();
+    assert!(closure.abs() < 1e-3, "{closure}");
+}
+
+#[test]
+fn unloaded_columns_have_the_force_of_the_quadrature_over_the_gap() {
+    let own = made(&format!("material = \"crushed\", {BALL}"));
+    let deepest = 0.012;
+    let phases = own.phases().unwrap();
+    assert_eq!(phases.names(), ["slack", "loading", "unloading"]);
+    let PhaseLaw::Element(back) = phases.law(Phase { index: 2, memory: deepest }) else { panic!() };
+    for y in [0.003, 0.004, 0.008, 0.0115] {
+        // Midpoints: the corner at the set makes their error that of the second order.
+        let count = 400_000_u32;
+        let step = y / f64::from(count);
+        let column = |at: u32| {
+            let gap = step * (f64::from(at) + 0.5);
+            let part = (y - gap) / (deepest - gap);
+            let stress = MODULUS / THICKNESS * (y - gap) * ((part - 0.2) / 0.8).max(0.0);
+            stress * 2.0 * PI * (0.05 - gap) * step
+        };
+        let force: f64 = (0..count).map(column).sum();
+        close(back.force(y, 0.0), force, 1e-9, "unloading");
+        let step = 1e-7;
+        let slope = (back.force(y + step, 0.0) - back.force(y - step, 0.0)) / (2.0 * step);
+        close(back.tangent(y, 0.0).stiffness, slope, 1e-6, "slope of unloading");
+        let work = (back.stored(y + step) - back.stored(y - step)) / (2.0 * step);
+        close(force, work, 1e-6, "what it gives back");
+    }
+    close(back.force(deepest, 0.0), own.force(deepest, 0.0), 1e-12, "where it turns");
+    assert!(back.force(0.2 * deepest, 0.0).abs() <= 1e-13 * own.force(deepest, 0.0));
+}
+
 /// The faults of a pad.
 fn refused(own: &str) -> String {
     read(&ball_on(own), &ReadOptions::default()).unwrap_err().to_string()
@@ -308,6 +375,7 @@ fn what_has_no_answer_is_refused_with_its_key() {
     for (own, words) in [
         (format!("material = \"gel\", {BALL}"), "has `dashpot`"),
         (format!("material = \"row\", {BALL}"), "parts in series"),
+        (format!("material = \"pushed\", {BALL}"), "no force until it is pressed"),
         (format!("material = \"rubber\", area = 1e-3, {BALL}"), "two sizes of one pad"),
         (format!("spring = 1e4, {BALL}"), "`pressed-by` goes with a material or foam"),
         (on("{ shape = \"sphere\" }"), "`radius` must be given for `shape = \"sphere\"`"),

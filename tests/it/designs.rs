@@ -96,6 +96,33 @@ fn a_design_that_cannot_be_read_is_told_by_its_file() {
 }
 
 #[test]
+fn every_scene_that_is_not_there_is_named() {
+    let (_folder, [soft, _]) = written();
+    let output = run(&["run", "nowhere.toml", &soft, "gone.toml"]);
+    assert_eq!(code(&output), 2);
+    for name in ["`nowhere.toml` cannot be read", "`gone.toml` cannot be read"] {
+        assert!(err(&output).contains(name), "{}", err(&output));
+    }
+}
+
+#[test]
+fn a_limit_of_one_scene_alone_is_told_to_be_none_of_the_others() {
+    let (folder, [soft, _]) = written();
+    let bare = scene("bare", "36 kN/m").replace("[limits]\npad.peak-force = \"2 kN\"\n", "");
+    let bare = file(&folder, "bare.toml", &bare).to_str().unwrap().to_owned();
+    let text = words(&out(&run(&["run", &soft, &bare])));
+    for told in
+        ["PASS soft keeps all its limits – bare has no limits", "bare: – not a limit of this scene"]
+    {
+        assert!(text.contains(told), "no {told:?} in {text}");
+    }
+    // The same one of the command line is one of both, and told once.
+    let text = words(&out(&run(&["run", &soft, &bare, "--limit", "pad.peak-force<=2000 N"])));
+    assert!(text.contains("PASS soft keeps all its limits PASS bare keeps all"), "{text}");
+    assert_eq!(text.matches("limit pad.peak-force at most").count(), 1, "{text}");
+}
+
+#[test]
 fn measures_that_are_named_stand_alone_in_tables_and_json() {
     let (_folder, [soft, _]) = written();
     let all = ["run", &soft, "--measure", "head.hic15,pad.impulse"];

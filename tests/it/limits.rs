@@ -42,6 +42,38 @@ fn a_limit_is_kept_or_exceeded_by_the_margin_of_the_closed_form() {
 }
 
 #[test]
+fn limits_are_told_in_the_unit_in_which_they_are_written() {
+    let (_folder, path) =
+        written("pad.peak-force = \"1600 N\"\nhead.peak-acceleration = \"400 m/s^2\"");
+    let output = run(&["run", &path, "--limit", "pad.peak-deformation<=0.08 m"]);
+    let text = out(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    // V √(K/m) and V √(m/K).
+    for told in
+        ["1581 N, at most 1600 N", "395.3 m/s^2, at most 400 m/s^2", "0.06325 m, at most 0.08 m"]
+    {
+        assert!(text.contains(told), "no {told:?} in {text}");
+    }
+}
+
+#[test]
+fn limits_that_exclude_each_other_are_refused() {
+    let refused = |limits: &str, more: &[&str], told: &str| {
+        let (_folder, path) = written(limits);
+        let output = run(&[&["run", &path], more].concat());
+        assert_eq!(code(&output), 2, "{}", out(&output));
+        let said = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(told), "no {told:?} in {said}");
+    };
+    let own = "pad.peak-force = { max = \"1 kN\", min = \"2 kN\" }";
+    refused(own, &[], "at most 1000 N = 1 kN and at least 2000 N = 2 kN");
+    refused("pad.peak-force = [{ min = \"2 kN\" }, \"1 kN\"]", &[], "no value keeps the limits");
+    let own = "pad.peak-force = \"2 kN\"";
+    refused(own, &["--limit", "pad.peak-force>=2.5 kN"], "at most 2 kN and at least 2.5 kN");
+    let (_folder, path) = written("pad.peak-force = { max = \"2 kN\", min = \"2 kN\" }");
+    assert_eq!(code(&run(&["check", &path])), 0);
+}
+
+#[test]
 fn what_follows_the_impact_and_exceeds_a_limit_leaves_it_undecided() {
     // The second body meets a wall of stiffness k after the impact: V √(k m) is 141.4 g there, 24.98 g before.
     let scene = |limit: &str| {

@@ -88,6 +88,31 @@ fn a_known_deviation_of_a_measured_loop_is_found() {
 }
 
 #[test]
+fn parameters_of_tests_and_times_have_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[models.rubber]\npower-spring = { force = 100, at = 0.01, exponent = 2 }\n";
+    fs::write(folder.path().join("models.toml"), text).unwrap();
+    let said = |words: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+            .args(words)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let said = String::from_utf8(output.stderr).unwrap();
+        said.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let of_test = ["rheometer", "models.toml:rubber", "--test", "load-unload", "--with"];
+    let bare = said(&[&of_test[..], &["deformation=10"]].concat());
+    assert!(
+        bare.contains("`deformation`: `10` has no unit: write \"10 mm\" or \"10 m\""),
+        "{bare}"
+    );
+    let bare = said(&["run", "reference", "--at", "5"]);
+    assert!(bare.contains("`5` has no unit: write \"5 ms\" or \"5 s\""), "{bare}");
+}
+
+#[test]
 fn twenty_rates_stand_in_parts_that_fit_a_terminal() {
     let folder = tempfile::tempdir().unwrap();
     let text = "[models.rubber]\npower-spring = { force = 100, at = 0.01, exponent = 2 }\n";

@@ -380,6 +380,24 @@ fn a_pulse_is_told_by_its_peak_and_duration() {
 }
 
 #[test]
+fn points_of_a_curve_are_told_together() {
+    let folder = TempDir::new().unwrap();
+    let scene = "[nodes]\nhead = { mass = 4, velocity = 5 }\n[elements]\npad = { between = [\"head\", \"ground\"], \
+                 table-spring = [[0, 0], [0.01, 100], [0.02, 400], [0.04, 2000]] }\n[run]\nduration = 0.1\n";
+    let path = file(&folder, "scene.toml", scene);
+    let shown = out(&run(&["groups", text(&path)]));
+    // Of four points one is zero, and one coordinate is a reference.
+    let rows: Vec<&str> = shown.lines().filter(|line| line.contains("table-spring.")).collect();
+    assert_eq!(rows.len(), 2, "{shown}");
+    assert!(rows.iter().all(|row| row.contains(" points")), "{shown}");
+    // Programs have each.
+    let told = json(&["groups", text(&path), "--json"]);
+    let groups = told["groups"].as_array().unwrap().iter();
+    let points = groups.filter(|own| own["parameter"].as_str().unwrap().contains("table-spring["));
+    assert!(points.count() >= 7, "{told}");
+}
+
+#[test]
 fn sizes_that_act_in_products_alone_make_no_groups() {
     let names = |scene: &str| {
         let told = json(&["groups", text(&scene_path(scene)), "--json"]);

@@ -428,6 +428,60 @@ liner = { between = ["head", "ground"], material = "soft", thickness = "20 mm", 
 duration = "60 ms"
 "#;
 
+#[test]
+fn rows_of_a_table_have_words_and_names() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "liners.toml", LINERS);
+    // As a spreadsheet in German writes it: Latin-1, decimal commas, lines before and behind.
+    let text = "Entw\u{fc}rfe;Mai\n\nEntwurf;liner.material;liner.thickness [mm]\nA1;soft;22,5\nA2;firm;25,0\n\
+                B \u{e4};soft;30\nEnde\n";
+    let bytes: Vec<u8> = text.chars().map(|own| u8::try_from(u32::from(own)).unwrap()).collect();
+    let table = folder.path().join("designs.csv");
+    std::fs::write(&table, bytes).unwrap();
+    let words = ["sweep", path.to_str().unwrap(), "--points", table.to_str().unwrap()];
+    let output = run(&[&words[..], &["--measure", "liner.peak-force"]].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let said = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("`Entwurf` is nothing in the scene: it names the designs"), "{said}");
+    assert!(said.contains("line 1 and line 7 are no part of the table"), "{said}");
+    let shown = out(&output);
+    let rows: Vec<Vec<&str>> = shown.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..3], ["Entwurf", "liner.material", "liner.thickness [m]"]);
+    let right =
+        [("A1", "soft", 1e6, 0.0225), ("A2", "firm", 4e6, 0.025), ("B \u{e4}", "soft", 1e6, 0.03)];
+    for (row, (name, material, modulus, thickness)) in rows[1..].iter().zip(right) {
+        assert_eq!((row[0], row[1]), (name, material));
+        let found: f64 = row[3].parse().unwrap();
+        assert!((found / liner_force(modulus, thickness) - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    assert_eq!(rows.len(), 4);
+    let told = json(&[&words[..], &["--json"]].concat());
+    assert_eq!(told["parameters"][0]["values"], serde_json::json!(["A1", "A2", "B \u{e4}"]));
+    assert!(told["parameters"][0]["path"].is_null(), "{}", told["parameters"][0]);
+}
+
+#[test]
+fn a_row_that_does_not_fit_the_scene_is_told_by_its_line() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "liners.toml", LINERS);
+    let scene = path.to_str().unwrap();
+    for (table, told) in [
+        ("liner.material,head.mass [kg]\nsoft,5\nsfot,5\n", "line 3 of"),
+        (
+            "liner.material,head.mass [kg]\nsoft,5\nsoft,five\n",
+            "line 3, column `head.mass`: `five` is not",
+        ),
+        ("liner.materal,head.mass [kg]\nsoft,5\n", "did you mean"),
+        ("batch,head.mass\nx,one\ny,two\n", "`head.mass` is a number"),
+    ] {
+        let file = file(&folder, "designs.csv", table);
+        let output = run(&["sweep", scene, "--points", file.to_str().unwrap()]);
+        assert_eq!(code(&output), 2, "{table:?}: {}", err(&output));
+        let said = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(told), "{table:?}: {said}");
+    }
+}
+
 /// V √(m E A/h).
 fn liner_force(modulus: f64, thickness: f64) -> f64 {
     5.0 * (5.0 * modulus * 40e-4 / thickness).sqrt()

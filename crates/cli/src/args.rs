@@ -12,7 +12,7 @@ use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{parse_limits, units::parse_quantity};
 
-use crate::error::{is_unit, unquoted_help};
+use crate::error::{CliError, is_unit, unquoted_help};
 
 /// What may stand for a model.
 pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
@@ -61,9 +61,14 @@ pub(crate) struct LimitArguments {
 }
 
 impl LimitArguments {
-    /// All limits.
-    pub(crate) fn all(&self) -> impl Iterator<Item = Limit> + '_ {
-        self.limit.iter().flat_map(|own| own.list.iter().cloned())
+    /// All limits, which stand beside those of a scene.
+    pub(crate) fn beside(&self, own: &[Limit]) -> Result<Vec<Limit>, CliError> {
+        let given = self.limit.iter().flat_map(|own| &own.list);
+        let all: Vec<Limit> = own.iter().chain(given.clone()).cloned().collect();
+        match Limit::contradiction(&all) {
+            Some(pair) => Err(CliError::Contradiction { limits: Box::new(pair.map(Limit::clone)) }),
+            None => Ok(given.cloned().collect()),
+        }
     }
 }
 
@@ -157,23 +162,13 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 
 /// A time \[s\] within a run.
 pub(crate) fn time(text: &str) -> Result<f64, String> {
-    let time = signed_time(text)?;
+    let time = shift(text)?;
     if time >= 0.0 { Ok(time) } else { Err("a run begins at 0 s".to_owned()) }
 }
 
 /// A time \[s\], or a difference of times.
-pub(crate) fn signed_time(text: &str) -> Result<f64, String> {
-    crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
-}
-
-/// A difference of times \[s\] with its unit: a bare one would be seconds, which a measured impact never is moved by.
 pub(crate) fn shift(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(number) if number != 0.0 => {
-            Err(format!("`{number}` has no unit: write \"{number} ms\" or \"{number} s\""))
-        }
-        _ => signed_time(text),
-    }
+    crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
 }
 
 /// Units of work: a whole number, or one such as 1e9.

@@ -7,7 +7,7 @@ use std::{
 };
 
 use dashpot_analysis::{
-    RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
+    Limit, RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
     vibration::VibrationError,
 };
 use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
@@ -21,7 +21,7 @@ use dashpot_scene::{
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
-use crate::numbers::constant;
+use crate::{numbers::constant, verbs::run::stated};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,6 +53,9 @@ pub(crate) enum CliError {
     /// A file that is no table of designs.
     #[error("`{}`: {fault}", .file.display())]
     Listed { file: PathBuf, fault: Box<ListedFault> },
+    /// Two limits of which no value keeps both.
+    #[error("no value keeps both limits, `{}` {} and {}", .limits[0].key, stated(&.limits[0], None), stated(&.limits[1], None))]
+    Contradiction { limits: Box<[Limit; 2]> },
     /// Limits are to be enforced, and there is none.
     #[error("`--enforce` has no limit to enforce")]
     NoLimits,
@@ -254,6 +257,7 @@ impl CliError {
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
                     .to_owned(),
             ),
+            Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
             Self::Variation(fault) => Some(fault.help()),

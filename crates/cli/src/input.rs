@@ -1,6 +1,7 @@
 //! Scenes and models from files.
 
 use std::{
+    borrow::Cow,
     fs::{self, File},
     io::{self, Read},
     path::Path,
@@ -8,7 +9,8 @@ use std::{
 
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    ReadOptions, Scene, nearest, references, text_of_bytes, units::parse_quantity,
+    ReadOptions, Scene, nearest, references, table_text, text_of_bytes, units::parse_quantity,
+    with_units,
 };
 
 use crate::error::{CliError, reason};
@@ -58,6 +60,11 @@ impl Input {
         text_of_bytes(&self.bytes, Some(&self.file)).map_err(CliError::Scene)
     }
 
+    /// The text of a file of numbers, whichever its encoding is.
+    pub(crate) fn table_text(&self) -> Cow<'_, str> {
+        table_text(&self.bytes)
+    }
+
     /// How it is read with the values `set` in place of its own.
     pub(crate) fn options<'o>(&'o self, set: &'o [(String, String)]) -> ReadOptions<'o> {
         ReadOptions { file: Some(&self.file), set, loader: Some(&load) }
@@ -69,7 +76,7 @@ pub(crate) fn title(scene: &Scene) -> &str {
     scene.title.as_deref().or(scene.file.as_deref()).unwrap_or("a scene without title")
 }
 
-/// The value of a setting of this name, in SI units.
+/// The value of a setting of this name, in SI units; a bare number may be meant in others, and is none but zero.
 pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
     let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };
     let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?.meant(expected);
@@ -77,6 +84,9 @@ pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64
         Some(own) if own != expected => {
             let unit = |dimension: Dimension| dimension.named().map_or("another unit", |own| own.1);
             Err(wrong(format!("`{text}` is in {}, where {} is wanted", unit(own), unit(expected))))
+        }
+        None if expected != Dimension::NUMBER && found.value != 0.0 => {
+            Err(wrong(format!("`{text}` has no unit: write {}", with_units(text, expected))))
         }
         _ if found.angle == 0 => Ok(found.value),
         Some(Dimension::FREQUENCY) => {

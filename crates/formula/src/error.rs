@@ -2,7 +2,7 @@
 
 use std::{fmt, ops::Range};
 
-use dashpot_units::{Dimension, UnitError, si_unit};
+use dashpot_units::{Dimension, UnitError, parse_dimension, si_unit};
 use thiserror::Error;
 
 /// What is wrong, and where.
@@ -99,6 +99,12 @@ impl FormulaFault {
                 "give the number its unit".to_owned()
             }
             Self::Unexpected { found, .. } if found == "*" => "a power is written ^".to_owned(),
+            Self::Unexpected { found, .. } if found == "±" => {
+                "scatter belongs to a number: give it to one under [values], and compute with its name".to_owned()
+            }
+            Self::Unexpected { found, .. } if parse_dimension(found).is_ok() => format!(
+                "a unit stands behind a number alone: write `* 1 {found}` in place of `{found}`; between names stands `*`"
+            ),
             Self::UnknownFunction { .. } => {
                 let words = super::Function::ALL.map(super::Function::word);
                 format!("the functions are {}; a product needs its `*`", words.join(", "))

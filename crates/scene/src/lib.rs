@@ -37,19 +37,22 @@ pub use outline::{OutlineRow, outline};
 pub use quantities::bare::BareNumber;
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
+pub use quantities::words::with_units;
 pub use scene::{
     Posed, ReadOptions, RunSettings, Scene, pose, read, read_bytes, read_network, text_of_bytes,
 };
 pub use schema::schema;
 pub use sections::parse_limits;
 pub use shipped::{Shipped, reference, references, template, templates};
-pub use tables::{DataTable, Heading, LeftOut, TableError, TableFault, table_text, text_cell};
+pub use tables::{
+    DataTable, Heading, LeftOut, Likewise, TableError, TableFault, table_text, text_cell,
+};
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};
 pub use text::source::Source;
 pub use text::visible::{is_control, visible};
-pub use vary::listed::ListedFault;
+pub use vary::listed::{Listed, ListedFault};
 pub use vary::scatter::{Change, Drawn, Sample, ScatteredNumber};
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};

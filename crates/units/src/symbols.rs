@@ -48,6 +48,7 @@ const SYMBOLS: &[Symbol] = &[
     unit("min", 60.0, 0, Dimension::TIME, false),
     unit("h", 3600.0, 0, Dimension::TIME, false),
     unit("N", 1.0, 0, Dimension::FORCE, true),
+    unit("daN", 1.0, 1, Dimension::FORCE, false),
     unit("J", 1.0, 0, Dimension::ENERGY, true),
     unit("W", 1.0, 0, Dimension::new(1, 2, -3), true),
     unit("Pa", 1.0, 0, Dimension::PRESSURE, true),
@@ -219,6 +220,7 @@ mod tests {
         assert_eq!(symbol("ft").unwrap().dimension, Dimension::LENGTH);
         assert_eq!(symbol("kg").unwrap().exponent, 0);
         assert_eq!(symbol("Mg").unwrap().exponent, symbol("t").unwrap().exponent);
+        assert_eq!(symbol("daN").unwrap().exponent, 1);
         assert!(symbol("kmin").is_none() && symbol("KN").is_none() && symbol("").is_none());
     }
 

@@ -4,7 +4,7 @@ use dashpot_dae::Trajectory;
 use dashpot_network::{
     Assembly, Element, PhasedNetwork, PrimitiveOutputs,
     elements::Law,
-    phases::{Phase, PhaseLaw},
+    phases::{Phase, PhaseLaw, Phases},
 };
 
 /// Which entries of an energy ledger a part has.
@@ -32,10 +32,16 @@ impl EnergyRole {
                         matches!(own.law(Phase { index, memory: 0.0 }), PhaseLaw::Element(_))
                     })
                 }),
-                dissipates: true,
+                dissipates: !is_elastic(element),
             },
         }
     }
+}
+
+/// Whether the force of an element that switches is one of the deformation alone, whatever its phase.
+pub(crate) fn is_elastic(element: &dyn Element) -> bool {
+    let whole = element.phases().and_then(Phases::at_rest);
+    matches!(whole, Some(Law::Nonlinear { damping, .. }) if damping <= 0.0)
 }
 
 /// The energy \[J\] that a part stores at `time` \[s\] at this deformation \[m\], just before what

@@ -3,6 +3,7 @@
 use dashpot_dae::{Run, Silent};
 
 use crate::{
+    Reading,
     errors::{
         accuracy::excess,
         solved::{Solved, Task},
@@ -34,7 +35,7 @@ impl OpenEnd {
         solved: &[Solved],
         errors: &mut [Option<f64>],
     ) -> Option<Self> {
-        let (finest, others) = solved.split_last()?;
+        let (finest, others) = solved.split_last().filter(|own| !own.1.is_empty())?;
         let ends = undecided_releases(
             &finest.as_read(task.assembly),
             &|| others.iter().map(|other| other.as_read(task.assembly)).collect(),
@@ -60,6 +61,30 @@ impl OpenEnd {
         }
         let matters = most > 1.0 || !undecided.is_empty();
         matters.then_some(Self { time, measures, undecided })
+    }
+
+    /// What one solution alone leaves open: where its force pulls by less than its error may be, and pushes again.
+    /// `None` where that makes no difference to a measure beyond what is asked of it.
+    pub(crate) fn of_one(task: &Task<'_>, solved: &Solved) -> Option<Self> {
+        if solved.threshold <= 0.0 {
+            return None;
+        }
+        let solution = || solved.as_read(task.assembly);
+        let ends = undecided_releases(&solution(), &Vec::new, solved.threshold);
+        let time = ends.iter().map(|end| end.1).reduce(f64::min)?;
+        let earlier = task.read(&mut solution().ending(ends));
+        let differs = |(at, (own, other)): (usize, (&Reading, &Reading))| {
+            let wish = task.settings.accuracy.of(&task.selected[at].key);
+            let is_other = match (own.value, other.value) {
+                (Some(value), Some(other)) => excess(own, Some((other - value).abs()), wish) > 1.0,
+                (None, None) => false,
+                _ => true,
+            };
+            is_other.then_some(at)
+        };
+        let both = solved.readings.iter().zip(&earlier).enumerate();
+        let measures: Vec<usize> = both.filter_map(differs).collect();
+        (!measures.is_empty()).then_some(Self { time, measures, undecided: Vec::new() })
     }
 }
 

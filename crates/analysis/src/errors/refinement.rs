@@ -211,7 +211,7 @@ impl Task<'_> {
         Ok(Outcome {
             of_method: errors.clone(),
             errors,
-            open_end: None,
+            open_end: OpenEnd::of_one(self, &solved),
             instants: None,
             solved,
             solves_for_error: 0,

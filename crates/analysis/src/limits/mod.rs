@@ -3,6 +3,7 @@
 pub mod standards;
 
 use dashpot_network::parameters::registered;
+use dashpot_units::Unit;
 
 use crate::measures::{MEASURES, MeasureEntry};
 
@@ -17,6 +18,8 @@ pub struct Limit {
     pub from: Option<String>,
     /// Whether it is one on the mean of several tests, for which one run stands.
     pub of_mean: bool,
+    /// The unit in which the bound was written.
+    pub unit: Option<Unit>,
 }
 
 /// What a measure may be, in its SI unit; the bound itself is within.
@@ -156,19 +159,33 @@ impl Bound {
 impl Limit {
     /// A limit on the measure with this key, of no source.
     pub fn new(key: impl Into<String>, bound: Bound) -> Self {
-        Self { key: key.into(), bound, from: None, of_mean: false }
+        Self { key: key.into(), bound, from: None, of_mean: false, unit: None }
     }
 
     /// Adds further ones to some, but for those that are among them.
     pub fn add(all: &mut Vec<Self>, further: impl IntoIterator<Item = Self>) {
         for own in further {
-            let is_same = |known: &Self| {
-                (&known.key, known.bound, known.of_mean) == (&own.key, own.bound, own.of_mean)
-            };
-            if !all.iter().any(is_same) {
+            if !all.iter().any(|known| known.is_same(&own)) {
                 all.push(own);
             }
         }
+    }
+
+    /// Whether it allows the same, wherever it is from and in whichever unit it was written.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (&self.key, self.bound, self.of_mean) == (&other.key, other.bound, other.of_mean)
+    }
+
+    /// Two of some of which no value keeps both: the most that is allowed is less than the least.
+    pub fn contradiction(all: &[Self]) -> Option<[&Self; 2]> {
+        let excludes = |most: &Self, least: &Self| match (most.bound, least.bound) {
+            (Bound::Max(most_level), Bound::Min(least_level)) => {
+                most.key == least.key && most_level < least_level
+            }
+            _ => false,
+        };
+        let least = |most| all.iter().find(|least| excludes(most, least));
+        all.iter().find_map(|most| Some([most, least(most)?]))
     }
 
     /// The same on a measure that is `factor` times as large, positive.
@@ -229,6 +246,17 @@ mod tests {
             assert_eq!(Fail.doubted(Some(doubt)), Fail);
             assert_eq!(Undecided(Reason::Error).doubted(Some(doubt)), Undecided(Reason::Error));
         }
+    }
+
+    #[test]
+    fn a_range_that_is_empty_is_a_contradiction() {
+        let of = |key: &str, bound| Limit::new(key, bound);
+        let (most, least) = (of("a.b", Bound::Max(2.0)), of("a.b", Bound::Min(3.0)));
+        let all = [least.clone(), of("a.c", Bound::Max(1.0)), most.clone()];
+        assert_eq!(Limit::contradiction(&all), Some([&most, &least]));
+        // The bounds themselves are within.
+        assert_eq!(Limit::contradiction(&[of("a.b", Bound::Max(3.0)), least]), None);
+        assert_eq!(Limit::contradiction(&[most, of("a.c", Bound::Min(3.0))]), None);
     }
 
     #[test]

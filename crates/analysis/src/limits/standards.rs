@@ -4,7 +4,7 @@ use dashpot_network::parameters::Kind;
 
 use super::{Bound, Limit};
 use crate::measures::{
-    Hic15, Hic36, PeakAcceleration, PeakForce, STANDARD_GRAVITY, TransmittedForce,
+    Hic, Hic15, Hic36, PeakAcceleration, PeakForce, STANDARD_GRAVITY, TransmittedForce,
 };
 
 /// What a standard allows in a test.
@@ -37,6 +37,15 @@ pub const STANDARDS: &[Standard] = &[
         word: "en-1078",
         edition: "EN 1078:2012",
         test: "helmets for cyclists and skaters: flat anvil at 5.42 to 5.52 m/s, kerbstone anvil with 53.9 J at 5 kg",
+        kinds: ACCELERATION,
+        bounds: &[(250.0 * STANDARD_GRAVITY, false)],
+        dome: None,
+        source: "pages of manufacturers and test laboratories",
+    },
+    Standard {
+        word: "en-1080",
+        edition: "EN 1080",
+        test: "helmets for young children: as EN 1078; which edition the pages are about is not known",
         kinds: ACCELERATION,
         bounds: &[(250.0 * STANDARD_GRAVITY, false)],
         dome: None,
@@ -77,6 +86,16 @@ pub const STANDARDS: &[Standard] = &[
         bounds: &[(1000.0, false)],
         dome: None,
         source: "text of the rule",
+    },
+    Standard {
+        word: "en-1177",
+        edition: "EN 1177:2018+A1:2023",
+        test: "surfaces of playgrounds: missile of 4.6 kg from rising heights; the critical one is where the HIC, over \
+               any interval, reaches the limit",
+        kinds: &[<Hic as Kind>::KIND],
+        bounds: &[(1000.0, false)],
+        dome: None,
+        source: "secondary pages",
     },
     Standard {
         word: "en-1621-1-level-1",

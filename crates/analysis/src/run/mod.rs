@@ -4,6 +4,7 @@ pub(crate) mod attempts;
 
 mod events;
 mod outcome;
+mod preloads;
 mod warnings;
 
 use std::{sync::Arc, time::Instant};

@@ -9,6 +9,7 @@ use dashpot_network::{
     parameters::{Kind as _, WindowWish},
 };
 
+use super::preloads;
 use crate::{
     Accuracy, Beyond, Compression, ContactReport, Harder, Ledger, MeasureReport, Missed, Note,
     Solution, Through, Warning,
@@ -16,7 +17,7 @@ use crate::{
     errors::open_ends::OpenEnd,
     impact::{
         contacts,
-        interval::{Contact, Impact},
+        interval::{Contact, Impact, SLIGHT},
         sliders::Idle,
     },
     measures::{
@@ -55,6 +56,7 @@ pub(crate) fn collect(findings: &Findings<'_>) -> Vec<Warning> {
     warnings.extend(beyond_measured(findings.solution));
     warnings.extend(crushed_layers(findings));
     warnings.extend(energy(findings));
+    warnings.extend(preloads::loose(findings.solution));
     warnings.extend(findings.idle.iter().cloned().map(Warning::IdleSlider));
     warnings.extend(stops_that_hold(findings));
     warnings.extend(still_falling(findings.solution));
@@ -193,7 +195,17 @@ fn still_in_contact(findings: &Findings<'_>) -> Vec<Warning> {
     let is_known = findings.open_end.is_none_or(|open_end| open_end.undecided.is_empty());
     let contacts = findings.contacts.iter().filter(|_| is_known);
     let lasting = contacts.filter(|contact| contact.impact.contact == Contact::Lasting);
+    let has_faded = |element: &str| {
+        let force = findings.solution.assembly().connection(element).and_then(|own| own.force);
+        force.filter(|force| findings.solution.keeps(*force)).is_some_and(|force| {
+            let force = findings.solution.signal(force);
+            force.left_value(findings.solution.end()).abs() <= SLIGHT * force.bound()
+        })
+    };
+    // A force that fades has no end, which is no matter to who does not ask for one.
+    let is_asked = |element: &str| findings.measures.iter().any(|own| own.target == element);
     lasting
+        .filter(|contact| is_asked(&contact.element) || !has_faded(&contact.element))
         .map(|lasting| Warning::StillInContact {
             element: lasting.element.clone(),
             end: lasting.impact.end,
@@ -213,7 +225,7 @@ fn contacts_that_pull(findings: &Findings<'_>) -> Option<Warning> {
 fn open_end(findings: &Findings<'_>) -> Option<Warning> {
     let OpenEnd { time, measures, .. } = findings.open_end?;
     let measures = measures.iter().map(|&at| findings.measures[at].key.clone()).collect();
-    Some(Warning::OpenEnd { time: *time, measures })
+    Some(Warning::OpenEnd { time: *time, measures, is_covered: findings.estimate })
 }
 
 /// Peaks of forces and accelerations that lie outside the impact, and above those within.

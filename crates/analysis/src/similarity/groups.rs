@@ -190,6 +190,8 @@ pub struct Quantity {
     pub dimension: Dimension,
     /// Its value, in SI units.
     pub value: f64,
+    /// What all points of a curve have together, of one of them: `pad.table-spring.y`.
+    pub of_curve: Option<String>,
 }
 
 /// All parameters of a network, and its structure.
@@ -233,7 +235,19 @@ impl Inventory {
 
 impl Visit for Inventory {
     fn quantity(&mut self, name: &str, dimension: Dimension, value: f64) -> f64 {
-        self.quantities.push(Quantity { name: name.to_owned(), dimension, value });
+        self.quantities.push(Quantity { name: name.to_owned(), dimension, value, of_curve: None });
+        value
+    }
+
+    fn point(
+        &mut self,
+        curve: &str,
+        (at, axis): (usize, &str),
+        dimension: Dimension,
+        value: f64,
+    ) -> f64 {
+        let (name, of_curve) = (format!("{curve}[{at}].{axis}"), Some(format!("{curve}.{axis}")));
+        self.quantities.push(Quantity { name, dimension, value, of_curve });
         value
     }
 

@@ -11,7 +11,7 @@ mod groups;
 mod list;
 mod printed;
 mod rheometer;
-mod run;
+pub(crate) mod run;
 mod sweep;
 mod thesis;
 mod vibrate;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dashpot_rheology::Tree;
 
 use super::{
-    Element, Law, Spring, Tangent,
+    Element, Law, Spring, Tangent, TwoCurves, hysteresis,
     indenter::{Face, Indenter, Over},
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
 ///
 /// | symbol | field      | unit | range |
 /// |--------|------------|------|-------|
-/// | `f`    | `law`      | N    | a law of the deformation alone |
+/// | `f`    | `law`      | N    | a law of the deformation, on one curve or on two |
 /// |        | `indenter` |      | see [`Indenter`] |
 ///
 /// `f` is the law of the pad where all of the area `A₀` of the body is loaded at once, `f(s) = A₀ σ(s/h)`. So
@@ -34,15 +34,19 @@ use crate::{
 /// Once the edge of a dome is in the pad, all of its area is loaded and grows no further. The body pushes and
 /// never pulls. The pad stores `(1/A₀) ∫ W(y − z) dA` with the `W` that `f` stores, and dissipates none.
 ///
-/// Integrals are exact for laws of cubics (springs, cubic springs, tables) under shapes of rotation, and to
-/// about 10⁻¹⁴ of their value for all others.
+/// A law that is unloaded on another curve is so in every column from where that has been deepest: pressed in to
+/// `y_m`, the column under the gap `z` to `y_m − z`. So `F(y) = (1/A₀) ∫ f φ(y − z, y_m − z) dA`, and the pad has the
+/// one memory `y_m` and the set of its deepest column. It dissipates what its columns do.
+///
+/// Integrals are exact for laws of cubics (springs, cubic springs, piecewise linear springs, tables) under shapes of
+/// rotation as they are loaded, and to about 10⁻¹⁴ of their value for all others.
 ///
 /// # Limits
 ///
 /// The columns do not hold each other: no shear, so nothing outside of the body sinks in. No friction at
 /// the face; the thickness is measured along the stroke, so slopes of the face of more than 30° or so are
 /// out of its reach. A sphere or cylinder that is in by more than its radius has no answer here: a run warns of it. A law
-/// that depends on the rate or remembers needs the history of every column, and is refused.
+/// that depends on the rate needs the history of every column, and is refused.
 ///
 /// # Examples
 ///
@@ -89,7 +93,7 @@ impl Foundation {
         law.validate()?;
         let face = indenter.face()?;
         check(law.as_ref())?;
-        let cubics = law.cubics();
+        let cubics = law.two_curves().map_or_else(|| law.cubics(), |own| own.loading().cubics());
         let is_cubic = cubics.is_some();
         let end = || law.range().map(|range| range.1).into_iter().collect();
         let breaks = cubics.unwrap_or_else(end);
@@ -115,7 +119,7 @@ impl Foundation {
     /// A typical slope \[N/m\]: the secant as far as the law is known, or with all of the area loaded.
     fn secant(&self) -> f64 {
         if self.face.is_flat() {
-            return match self.law.law() {
+            return match whole(self.law.as_ref()) {
                 Law::Spring(stiffness) | Law::Nonlinear { stiffness, .. } => stiffness,
                 _ => 0.0,
             };
@@ -127,25 +131,64 @@ impl Foundation {
 
     /// The mean over the area of what `of` gives for how much a column is shortened.
     fn mean(&self, over: Over, deformation: f64, of: impl Fn(f64) -> f64) -> f64 {
+        self.mean_of(over, deformation, (self.is_cubic, &[]), of)
+    }
+
+    /// The same of what is a cubic between its breaks or not, with further breaks, which are gaps.
+    fn mean_of(
+        &self,
+        over: Over,
+        deformation: f64,
+        (is_cubic, further): (bool, &[f64]),
+        of: impl Fn(f64) -> f64,
+    ) -> f64 {
         let to = deformation.min(self.face.rim);
         let breaks = self.breaks.iter().map(|at| deformation - at);
+        let breaks = breaks.chain(further.iter().copied());
         let of = |gap: f64| of(deformation - gap);
-        self.face.integrated(over, to, (self.is_cubic, breaks), of) / self.face.area()
+        self.face.integrated(over, to, (is_cubic, breaks), of) / self.face.area()
+    }
+
+    /// The mean over the area of what `of` gives for how much a column is shortened and how much it was at most,
+    /// where the pad was pressed in to `deepest` \[m\].
+    fn mean_unloaded(
+        &self,
+        curves: &dyn TwoCurves,
+        [deformation, deepest]: [f64; 2],
+        of: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        let parts = curves.bends().into_iter().filter(|part| *part < 1.0);
+        let bends: Vec<f64> =
+            parts.map(|part| (deformation - part * deepest) / (1.0 - part)).collect();
+        let beyond = (deepest - deformation).max(0.0);
+        let of_column = |own: f64| if own > 0.0 { of(own, own + beyond) } else { 0.0 };
+        self.mean_of(Over::Area, deformation.max(0.0), (false, &bends), of_column)
     }
 }
 
-/// Refuses laws that are not of the deformation alone.
+/// A law as the compiler of networks sees it, of one that switches the whole of it as it is loaded.
+fn whole(law: &dyn Element) -> Law {
+    let loading = law.two_curves().map(|own| own.loading().law());
+    let at_rest = || law.phases().and_then(Phases::at_rest);
+    loading.or_else(at_rest).unwrap_or_else(|| law.law())
+}
+
+/// Refuses laws that depend on the rate, and such as push before they are pressed.
 fn check(law: &dyn Element) -> Result<(), InvalidParameter> {
-    match law.law() {
-        Law::Spring(_) => Ok(()),
-        Law::Nonlinear { damping, .. } if damping <= 0.0 => Ok(()),
-        _ => {
-            let range = "a law of the deformation alone, such as `spring`, `foam` or \
-                         `table-spring`: with an area that grows, what depends on the rate or \
-                         remembers does so in every column for itself";
-            Err(InvalidParameter::new(LAW, range, format!("`{}`", law.kind())))
+    let refused =
+        |range: &'static str| Err(InvalidParameter::new(LAW, range, format!("`{}`", law.kind())));
+    match whole(law) {
+        Law::Nonlinear { damping, .. } if damping > 0.0 => {}
+        Law::Spring(_) | Law::Nonlinear { .. } if law.force(0.0, 0.0) == 0.0 => return Ok(()),
+        Law::Spring(_) | Law::Nonlinear { .. } => {
+            return refused("a law that has no force until it is pressed");
         }
+        _ => {}
     }
+    refused(
+        "a law of the deformation, such as `spring`, `foam`, `table-spring` or `hysteretic-table`: with an area \
+         that grows, what depends on the rate does so in every column for itself",
+    )
 }
 
 impl Element for Foundation {
@@ -177,6 +220,11 @@ impl Element for Foundation {
         if self.face.is_flat() {
             return self.law.stored(deformation);
         }
+        if let Some(curves) = self.law.two_curves() {
+            return self.mean_unloaded(curves, [deformation; 2], |own, deepest| {
+                curves.recoverable(own, deepest)
+            });
+        }
         // By parts: what all columns store that are shortened since the edge is in the pad, and the
         // work of the area before.
         let before = self.mean(Over::Gap, deformation, |own| self.law.force(own, 0.0));
@@ -204,22 +252,34 @@ const PRESSED: usize = 1;
 
 impl Phases for Foundation {
     fn names(&self) -> &'static [&'static str] {
-        &["free", "pressed"]
+        if self.law.two_curves().is_some() { hysteresis::NAMES } else { &["free", "pressed"] }
     }
 
     fn first(&self, deformation: f64) -> Phase {
+        if self.law.two_curves().is_some() {
+            return hysteresis::first(deformation);
+        }
         Phase { index: if deformation < 0.0 { FREE } else { PRESSED }, memory: 0.0 }
     }
 
     fn law(&self, phase: Phase) -> PhaseLaw {
-        match phase.index {
-            PRESSED if self.face.is_flat() => PhaseLaw::Element(Arc::clone(&self.law)),
-            PRESSED => PhaseLaw::Element(Arc::new(Pressed(self.clone()))),
+        let pressed = |deepest| PhaseLaw::Element(Arc::new(Pressed { pad: self.clone(), deepest }));
+        let is_plain = self.law.law() != Law::Phased;
+        match (phase.index, self.law.two_curves()) {
+            (hysteresis::UNLOADING, Some(_)) if phase.memory > 0.0 => pressed(Some(phase.memory)),
+            (PRESSED, None) if self.face.is_flat() && is_plain => {
+                PhaseLaw::Element(Arc::clone(&self.law))
+            }
+            (hysteresis::LOADING, Some(_)) | (PRESSED, None) => pressed(None),
             _ => PhaseLaw::Open,
         }
     }
 
     fn exits(&self, phase: Phase) -> Vec<Exit> {
+        if let Some(curves) = self.law.two_curves() {
+            // The deepest column is the last one to be slack.
+            return hysteresis::exits(curves, phase);
+        }
         let is_free = phase.index == FREE;
         vec![Exit {
             watched: Watched::Deformation,
@@ -233,41 +293,70 @@ impl Phases for Foundation {
 
 /// The pad while it is pressed.
 #[derive(Debug)]
-struct Pressed(Foundation);
+struct Pressed {
+    pad: Foundation,
+    /// The deformation from which it is unloaded on its second curve \[m\].
+    deepest: Option<f64>,
+}
+
+impl Pressed {
+    /// The second curve, and from where it is followed.
+    fn unloaded(&self) -> Option<(&dyn TwoCurves, f64)> {
+        self.pad.law.two_curves().zip(self.deepest)
+    }
+}
 
 impl Described for Pressed {
     fn kind(&self) -> &'static str {
-        self.0.kind()
+        self.pad.kind()
     }
 
     fn parameters(&self) -> &'static [Parameter] {
-        self.0.parameters()
+        self.pad.parameters()
     }
 
     fn values(&self) -> Vec<Value> {
-        self.0.values()
+        self.pad.values()
     }
 
     fn validate(&self) -> Result<(), InvalidParameter> {
-        self.0.validate()
+        self.pad.validate()
     }
 }
 
 impl Element for Pressed {
     fn force(&self, deformation: f64, rate: f64) -> f64 {
-        self.0.force(deformation, rate)
+        let Some((curves, deepest)) = self.unloaded() else {
+            return self.pad.force(deformation, rate);
+        };
+        self.pad.mean_unloaded(curves, [deformation, deepest], |own, deepest| {
+            curves.loading().force(own, 0.0) * curves.factor(own, deepest).0
+        })
     }
 
     fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
-        self.0.tangent(deformation, rate)
+        let Some((curves, deepest)) = self.unloaded() else {
+            return self.pad.tangent(deformation, rate);
+        };
+        let stiffness = self.pad.mean_unloaded(curves, [deformation, deepest], |own, deepest| {
+            let (factor, slope) = curves.factor(own, deepest);
+            let loading = curves.loading();
+            loading.tangent(own, 0.0).stiffness * factor + loading.force(own, 0.0) * slope
+        });
+        Tangent { stiffness, damping: 0.0 }
     }
 
     fn stored(&self, deformation: f64) -> f64 {
-        self.0.stored(deformation)
+        let Some((curves, deepest)) = self.unloaded() else {
+            return self.pad.stored(deformation);
+        };
+        self.pad.mean_unloaded(curves, [deformation, deepest], |own, deepest| {
+            curves.recoverable(own, deepest)
+        })
     }
 
     fn law(&self) -> Law {
-        Law::Nonlinear { stiffness: self.0.secant(), damping: 0.0 }
+        Law::Nonlinear { stiffness: self.pad.secant(), damping: 0.0 }
     }
 
     fn grows_from(&self) -> Option<f64> {

@@ -15,7 +15,7 @@ use crate::{
 /// `φ` rises with `y` from 0 or more to 1 at `y_m`, and never rises with `y_m`. So the second curve
 /// never lies above the first, and what it gives back grows by no more than the work that goes
 /// deeper: no history creates energy.
-pub(super) trait Hysteresis: Phases + Described + Clone + 'static {
+pub trait TwoCurves {
     /// The first curve `f`, for deformations ≥ 0.
     fn loading(&self) -> &dyn Element;
 
@@ -28,7 +28,13 @@ pub(super) trait Hysteresis: Phases + Described + Clone + 'static {
     /// Energy \[J\] that unloading from `deepest` gives back from `deformation` on: the integral of
     /// `f φ` from the set.
     fn recoverable(&self, deformation: f64, deepest: f64) -> f64;
+
+    /// Parts of the deepest deformation between which `φ` is smooth, the set among them.
+    fn bends(&self) -> Vec<f64>;
 }
+
+/// An element of such a law.
+pub(super) trait Hysteresis: TwoCurves + Phases + Described + Clone + 'static {}
 
 pub(super) const SLACK: usize = 0;
 pub(super) const LOADING: usize = 1;
@@ -53,7 +59,7 @@ pub(super) fn law(of: &impl Hysteresis, phase: Phase) -> PhaseLaw {
 }
 
 /// The ways out of a phase of such a law.
-pub(super) fn exits(of: &impl Hysteresis, phase: Phase) -> Vec<Exit> {
+pub(super) fn exits(of: &(impl TwoCurves + ?Sized), phase: Phase) -> Vec<Exit> {
     let kept = of.kept(phase.memory);
     let pass = |level, rising, to| Exit {
         watched: Watched::Deformation,
@@ -162,6 +168,10 @@ impl<H: Hysteresis> Element for H {
 
     fn range(&self) -> Option<(f64, f64)> {
         self.loading().range()
+    }
+
+    fn two_curves(&self) -> Option<&dyn TwoCurves> {
+        Some(self)
     }
 }
 

@@ -4,7 +4,7 @@ use dashpot_numerics::quadrature::integral;
 
 use super::{
     Element, Foam,
-    hysteresis::{self, Hysteresis},
+    hysteresis::{self, Hysteresis, TwoCurves},
 };
 use crate::{
     parameters::{
@@ -94,7 +94,9 @@ impl Phases for HystereticFoam {
     }
 }
 
-impl Hysteresis for HystereticFoam {
+impl Hysteresis for HystereticFoam {}
+
+impl TwoCurves for HystereticFoam {
     fn loading(&self) -> &dyn Element {
         &self.foam
     }
@@ -124,6 +126,10 @@ impl Hysteresis for HystereticFoam {
             self.foam.force(from + length * part, 0.0) * part.powf(self.unloading_exponent)
         };
         length * integral(force, 0.0, (deformation - from) / length)
+    }
+
+    fn bends(&self) -> Vec<f64> {
+        vec![self.set]
     }
 }
 

@@ -6,7 +6,7 @@ use dashpot_numerics::quadrature::GaussLegendre;
 
 use super::{
     Element, TableSpring,
-    hysteresis::{self, Hysteresis},
+    hysteresis::{self, Hysteresis, TwoCurves},
     monotone::MonotoneCurve,
     table_spring::check,
 };
@@ -215,7 +215,9 @@ impl Phases for HystereticTable {
     }
 }
 
-impl Hysteresis for HystereticTable {
+impl Hysteresis for HystereticTable {}
+
+impl TwoCurves for HystereticTable {
     fn loading(&self) -> &dyn Element {
         &self.0.loading
     }
@@ -240,7 +242,7 @@ impl Hysteresis for HystereticTable {
         let between = |at: &f64| *at > from && *at < deformation;
         let mut bends: Vec<f64> =
             self.loading_points().iter().map(|loading_point| loading_point.0).collect();
-        bends.extend(self.0.factor.points().iter().map(|point| point.0 * deepest));
+        bends.extend(self.bends().iter().map(|part| part * deepest));
         bends.retain(between);
         bends.extend([from, deformation]);
         bends.sort_by(f64::total_cmp);
@@ -248,6 +250,10 @@ impl Hysteresis for HystereticTable {
         // A cubic times a part that falls with it: a polynomial of the seventh degree at most.
         let rule = GaussLegendre::with_points(4);
         bends.windows(2).map(|pair| rule.integrate(pair[0], pair[1], force)).sum()
+    }
+
+    fn bends(&self) -> Vec<f64> {
+        self.0.factor.points().iter().map(|point| point.0).collect()
     }
 }
 

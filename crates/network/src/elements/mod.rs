@@ -47,6 +47,7 @@ pub use formula::Formula;
 pub use foundation::Foundation;
 pub use friction::Friction;
 pub use hunt_crossley::HuntCrossley;
+pub use hysteresis::TwoCurves;
 pub use hysteretic_foam::HystereticFoam;
 pub use hysteretic_table::HystereticTable;
 pub use indenter::{Indenter, Shape};
@@ -152,6 +153,11 @@ pub trait Element: Described {
     /// none where it is one cubic, and before the first and beyond the last it goes on as one. `None` for
     /// all other laws.
     fn cubics(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Both curves of a law that is unloaded on another one than it is loaded on. `None` for all other laws.
+    fn two_curves(&self) -> Option<&dyn TwoCurves> {
         None
     }
 }

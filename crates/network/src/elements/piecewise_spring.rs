@@ -129,6 +129,10 @@ impl Element for PiecewiseSpring {
     fn phases(&self) -> Option<&dyn Phases> {
         Some(self)
     }
+
+    fn cubics(&self) -> Option<Vec<f64>> {
+        Some(self.points[1..self.points.len() - 1].iter().map(|point| point.0).collect())
+    }
 }
 
 impl Phases for PiecewiseSpring {

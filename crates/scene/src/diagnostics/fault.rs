@@ -1,5 +1,7 @@
 //! What can be wrong with a scene, in words.
 
+use std::mem;
+
 use dashpot_formula::FormulaFault;
 use dashpot_network::{
     NetworkError,
@@ -266,6 +268,20 @@ impl Fault {
     #[must_use]
     pub(crate) fn with_note(self, note: impl Into<String>) -> Self {
         Self::Explained { fault: Box::new(self), help: None, note: Some(note.into()) }
+    }
+
+    /// Whether it is of the same kind, and the same is to be done about it.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        mem::discriminant(self.bare()) == mem::discriminant(other.bare())
+            && self.help() == other.help()
+    }
+
+    /// The fault without what its surroundings tell.
+    fn bare(&self) -> &Self {
+        match self {
+            Self::Explained { fault, .. } => fault.bare(),
+            own => own,
+        }
     }
 
     /// Something odd, and what to do about it.

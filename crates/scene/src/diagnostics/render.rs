@@ -12,6 +12,10 @@ use crate::text::{
     visible::{is_control, visible},
 };
 
+/// So many faults of one kind are shown …
+const SHOWN: usize = 3;
+/// … and so many lines named in which there are others.
+const NAMED: usize = 8;
 /// So many lines of the text are shown for one fault.
 const LINES: usize = 3;
 
@@ -25,14 +29,57 @@ impl Diagnostics {
     }
 
     /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
-    /// cut around what is at fault.
+    /// cut around what is at fault. Of many faults of one kind in a file the first ones are shown, and where the
+    /// others are.
     pub fn render_within(&self, color: bool, width: usize) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
-        let texts = self.list.iter().map(|diagnostic| one(&renderer, diagnostic, width));
-        let omitted = (self.omitted > 0).then(|| format!("and {} more", self.omitted));
-        texts.chain(omitted).collect::<Vec<_>>().join("\n\n")
+        let mut shown: Vec<String> = Vec::new();
+        for alike in self.by_kind() {
+            let most = if alike.len() > SHOWN + 1 { SHOWN } else { alike.len() };
+            let (first, others) = alike.split_at(most);
+            shown.extend(first.iter().map(|diagnostic| one(&renderer, diagnostic, width)));
+            shown.extend((!others.is_empty()).then(|| likewise(others)));
+        }
+        shown.extend((self.omitted > 0).then(|| format!("and {} more", self.omitted)));
+        shown.join("\n\n")
     }
+
+    /// Faults of one kind in one file together, in the order of the first ones.
+    fn by_kind(&self) -> Vec<Vec<&Diagnostic>> {
+        let mut kinds: Vec<Vec<&Diagnostic>> = Vec::new();
+        for own in &self.list {
+            let is_like = |known: &&mut Vec<&Diagnostic>| {
+                let first = known[0];
+                first.severity == own.severity
+                    && first.file() == own.file()
+                    && first.fault.is_like(&own.fault)
+            };
+            match kinds.iter_mut().find(is_like) {
+                Some(kind) => kind.push(own),
+                None => kinds.push(vec![own]),
+            }
+        }
+        kinds
+    }
+}
+
+/// How many more faults of a kind there are, and where the first of them stand.
+fn likewise(others: &[&Diagnostic]) -> String {
+    let lines = others.iter().filter_map(|own| own.line_and_column());
+    let mut lines: Vec<usize> = lines.map(|own| own.0).collect();
+    lines.dedup();
+    let named: Vec<String> = lines.iter().take(NAMED).map(usize::to_string).collect();
+    let word = match others[0].severity {
+        Severity::Error => "errors",
+        Severity::Warning => "warnings",
+    };
+    let end = match lines.len().saturating_sub(NAMED) {
+        0 if lines.is_empty() => String::new(),
+        0 => format!(", in lines {}", named.join(", ")),
+        more => format!(", in lines {} and {more} more", named.join(", ")),
+    };
+    format!("and {} {word} of the same kind{end}", others.len())
 }
 
 impl fmt::Display for Diagnostics {

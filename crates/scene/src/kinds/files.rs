@@ -13,7 +13,7 @@ use crate::{
     diagnostics::fault::Fault,
     models::notes::Remark,
     quantities::quantity::Quantities,
-    tables::{DataTable, LeftOut, Samples, Scale, TOLD, TableFault},
+    tables::{DataTable, LeftOut, Samples, Scale, TableError, TableFault},
     text::{
         document::{Content, Item},
         library::tables::{FILE, SCALE, TableFile},
@@ -82,12 +82,17 @@ impl<'d> KindReader<'d> {
         let faults = self.quantities.faults;
         let path = text_of(name, &format!("`{FILE}`"), faults)?;
         let file = self.quantities.files.get(path, name.place, faults)?;
-        let note = |column: Option<&str>| {
-            let column = column.map_or_else(String::new, |own| format!("in column `{own}`; "));
-            format!("{column}the file is named in {}", faults.whereabouts(name.place))
+        let named = || format!("the file is named in {}", faults.whereabouts(name.place));
+        let tell = |span: ops::Range<usize>, fault: Fault, more: Vec<String>| {
+            let note = more.into_iter().chain([named()]).collect::<Vec<_>>().join("; ");
+            faults.error(Place::new(file.number, &span), fault.with_note(note));
         };
-        let tell = |span: ops::Range<usize>, fault: Fault, column: Option<&str>| {
-            faults.error(Place::new(file.number, &span), fault.with_note(note(column)));
+        let in_column = |own: &str| format!("in column `{own}`");
+        let refuse = |error: TableError| {
+            let column = error.column.as_deref().map(in_column);
+            let likewise = error.likewise.map(|own| own.to_string());
+            let more = column.into_iter().chain(likewise).collect();
+            tell(error.span, Fault::Table(*error.fault), more);
         };
         let table = match DataTable::read(&file.source.text) {
             Ok(table) => table,
@@ -95,7 +100,7 @@ impl<'d> KindReader<'d> {
                 return self.without_rows(path, name.place);
             }
             Err(error) => {
-                tell(error.span, Fault::Table(*error.fault), error.column.as_deref());
+                refuse(error);
                 return None;
             }
         };
@@ -103,7 +108,7 @@ impl<'d> KindReader<'d> {
             file.remark(Remark::LeftOut(lines));
         }
         if table.columns() < 2 {
-            tell(0..0, Fault::Table(TableFault::OneColumn), None);
+            tell(0..0, Fault::Table(TableFault::OneColumn), Vec::new());
             return None;
         }
         let dimensions = self.dimensions(parameter);
@@ -117,7 +122,11 @@ impl<'d> KindReader<'d> {
             if let Some((error, span)) = misread {
                 let expected = self.quantities.basis.dimension(dimensions[at]);
                 let column = table.name(columns[at]).map(|own| own.0);
-                tell(span, Fault::Unreadable { error, expected }, column);
+                tell(
+                    span,
+                    Fault::Unreadable { error, expected },
+                    column.map(in_column).into_iter().collect(),
+                );
                 return None;
             }
             unit(file, table.unit(columns[at]), given, dimensions[at], quantities.unwatched())
@@ -126,9 +135,7 @@ impl<'d> KindReader<'d> {
         let mut scales =
             units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
         scales[1].factor *= wishes.scale.unwrap_or(1.0);
-        let samples = table.samples(columns, scales, |error| {
-            tell(error.span, Fault::Table(*error.fault), error.column.as_deref());
-        })?;
+        let samples = table.samples(columns, scales, refuse)?;
         if samples.points.is_empty() {
             return self.without_rows(path, name.place);
         }
@@ -138,12 +145,11 @@ impl<'d> KindReader<'d> {
         let missing = [largest(|own| own.0), largest(|own| own.1)];
         let missing = [0, 1].map(|at| missing[at].filter(|_| units[at].is_none()));
         self.without_units(missing, parameter, name.place);
-        if parameter.kind == ParameterKind::TimeTable {
-            let errors = out_of_order(&table, columns[0], &samples);
-            if !errors.is_empty() {
-                errors.into_iter().for_each(|(span, fault)| tell(span, Fault::Table(fault), None));
-                return None;
-            }
+        if parameter.kind == ParameterKind::TimeTable
+            && let Some(error) = out_of_order(&table, columns[0], &samples)
+        {
+            refuse(error);
+            return None;
         }
         let points = samples.points.into_iter().zip(samples.starts);
         let rows: Vec<Row> = points.map(|((at, value), start)| Row { at, value, start }).collect();
@@ -151,7 +157,7 @@ impl<'d> KindReader<'d> {
             let basis = self.quantities.basis;
             if let Err(invalid) = basis.check(parameter.name, dimensions[0], row.at) {
                 let help = "give its unit: `[%]` in the header, or `units = [\"%\", \"kPa\"]` in the scene";
-                tell(file.row(row.start), Fault::Invalid(invalid).with_help(help), None);
+                tell(file.row(row.start), Fault::Invalid(invalid).with_help(help), Vec::new());
                 return None;
             }
         }
@@ -355,13 +361,9 @@ impl<'d> KindReader<'d> {
     }
 }
 
-/// The times that stand after later ones.
-fn out_of_order(
-    table: &DataTable<'_>,
-    column: usize,
-    samples: &Samples,
-) -> Vec<(ops::Range<usize>, TableFault)> {
-    let (mut before, mut errors) = (0, Vec::new());
+/// The first time that stands after a later one, with the lines of all others.
+fn out_of_order(table: &DataTable<'_>, column: usize, samples: &Samples) -> Option<TableError> {
+    let (mut before, mut first) = (0, None::<TableError>);
     for (at, point) in samples.points.iter().enumerate() {
         if point.0 >= samples.points[before].0 {
             before = at;
@@ -369,11 +371,13 @@ fn out_of_order(
             [at, before].map(|row| table.cell(samples.starts[row], column))
         {
             let (found, before) = (own.text.to_owned(), earlier.text.to_owned());
-            errors.push((own.span(), TableFault::OutOfOrder { found, before }));
-        }
-        if errors.len() >= TOLD {
-            break;
+            let fault = TableFault::OutOfOrder { found, before };
+            let error = table.error(own.span(), column, fault);
+            match &mut first {
+                Some(known) => known.likewise.get_or_insert_default().add(error.line),
+                None => first = Some(error),
+            }
         }
     }
-    errors
+    first
 }

@@ -68,9 +68,9 @@ impl<'d> ModelReader<'d> {
             }
             Err(InvalidParameter { range, found, .. }) => {
                 let message = format!("what `pressed-by` presses must be {range}, but has {found}");
-                let help = "give an `area` instead, which is loaded at once; or press a material of \
-                            the deformation alone, such as a `table-spring`, which takes the loading of a \
-                            record, with the dashpot in parallel beside the pad";
+                let help = "give an `area` instead, which is loaded at once; or press a material that does not \
+                            depend on the rate, such as a `table-spring` or `hysteretic-table`, with the dashpot in \
+                            parallel beside the pad";
                 Fault::odd(message, help)
             }
         };

@@ -33,7 +33,7 @@ const USUAL: [(Dimension, &str, f64); 4] = [
 ];
 
 /// What to write in place of a number without a unit.
-pub(crate) fn with_units(number: &str, dimension: Dimension) -> String {
+pub fn with_units(number: &str, dimension: Dimension) -> String {
     let usual = USUAL.iter().find(|own| own.0 == dimension);
     let usual = usual.map_or(String::new(), |own| format!("\"{number} {}\" or ", own.1));
     format!("{usual}\"{number} {}\"", si_unit(dimension))

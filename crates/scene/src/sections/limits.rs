@@ -13,12 +13,16 @@ use super::{
 };
 use crate::{
     diagnostics::fault::Fault,
-    quantities::{arithmetic::names, words::with_units},
+    quantities::{
+        arithmetic::names,
+        words::{in_both_units, with_units},
+    },
     text::{
         document::{Content, Entry, Item},
         table::{Table, one_or_many, text_of, wrong_type},
     },
-    units::{nearest, parse_dimension, parse_quantity},
+    units::{Unit, nearest, parse_dimension, parse_quantity},
+    vary::variation::Written,
 };
 
 /// What a table says where it is a limit, and not one of measures.
@@ -39,9 +43,21 @@ pub(crate) fn read_limits(reading: &Reading<'_>, targets: &Targets<'_, '_>) -> V
     let mut limits = Vec::new();
     for entry in reading.section("limits") {
         for own in of_measures(reading, targets, &SAID, entry) {
-            for item in one_or_many(&own.entry.item) {
-                limits.extend(one(reading, &own, item).unwrap_or_default());
+            let all = one_or_many(&own.entry.item).iter();
+            let all = all.flat_map(|item| one(reading, &own, item).unwrap_or_default());
+            let all: Vec<Limit> = all.collect();
+            if let Some((kind, [most, least])) = own.kind.zip(Limit::contradiction(&all)) {
+                let level = |limit: &Limit| in_both_units(limit.bound.level(), dimension(kind));
+                let message = format!(
+                    "nothing is at most {} and at least {}: no value keeps the limits of `{}`",
+                    level(most),
+                    level(least),
+                    own.key
+                );
+                let help = "`max` is the most that is allowed, `min` the least";
+                reading.faults.error(own.entry.key_place, Fault::odd(message, help));
             }
+            limits.extend(all);
         }
     }
     limits
@@ -95,7 +111,16 @@ fn at_most(
     kind: &MeasureEntry,
     item: &Item,
 ) -> Option<Limit> {
-    Some(Limit::new(own.key.clone(), Bound::Max(level(reading, kind, item)?)))
+    let level = level(reading, kind, item)?;
+    let unit = unit_of(item.text().unwrap_or_default(), dimension(kind));
+    Some(Limit { unit, ..Limit::new(own.key.clone(), Bound::Max(level)) })
+}
+
+/// The unit of a plain quantity.
+fn unit_of(text: &str, expected: Dimension) -> Option<Unit> {
+    let unit = parse_quantity(text).is_ok().then(|| Written::split(text).unit)?;
+    let one = parse_quantity(&format!("1 {unit}")).ok()?.meant(expected);
+    (one.dimension == Some(expected)).then(|| Unit::new(unit, one.value))
 }
 
 /// The dimension of a level that is to have a unit: a bare one would be read in one that is perhaps not meant.
@@ -182,9 +207,11 @@ fn in_full(
         return None;
     }
     let limit = |entry: Option<&Entry>, bound: fn(f64) -> Bound| {
-        let level = level(reading, kind, &entry?.item)?;
+        let item = &entry?.item;
+        let level = level(reading, kind, item)?;
+        let unit = unit_of(item.text().unwrap_or_default(), dimension(kind));
         let from = from.map(str::to_owned);
-        Some(Limit { from, of_mean, ..Limit::new(own.key.clone(), bound(level)) })
+        Some(Limit { from, of_mean, unit, ..Limit::new(own.key.clone(), bound(level)) })
     };
     Some([limit(max, Bound::Max), limit(min, Bound::Min)].into_iter().flatten().collect())
 }
@@ -252,7 +279,7 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
         _ => {
             let level = quantity.value;
             let bound = if max.is_some() { Bound::Max(level) } else { Bound::Min(level) };
-            Ok(vec![Limit::new(key, bound)])
+            Ok(vec![Limit { unit: unit_of(rest, expected), ..Limit::new(key, bound) }])
         }
     }
 }

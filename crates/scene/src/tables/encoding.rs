@@ -13,7 +13,8 @@ const WINDOWS: [char; 32] = [
 ];
 
 /// The text of a file of numbers, in whichever encoding it is: UTF-8; UTF-16 where it has a byte order mark, or
-/// where every second one of its first bytes is zero; else Windows-1252, which holds Latin-1.
+/// where every second one of its first bytes is zero; else Windows-1252, which holds Latin-1. Where lines end with a
+/// carriage return alone, they end with a line feed in the text.
 ///
 /// # Examples
 ///
@@ -23,8 +24,14 @@ const WINDOWS: [char; 32] = [
 /// assert_eq!(table_text("Weg [µm]".as_bytes()), "Weg [µm]");
 /// assert_eq!(table_text(b"Weg [\xb5m]"), "Weg [µm]");
 /// assert_eq!(table_text(b"\xff\xfes\0;\0N\0"), "s;N");
+/// assert_eq!(table_text(b"0;0\r1;2\r"), "0;0\n1;2\n");
 /// ```
 pub fn table_text(bytes: &[u8]) -> Cow<'_, str> {
+    let text = decoded(bytes);
+    if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n").into() } else { text }
+}
+
+fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     if let Some(rest) = bytes.strip_prefix(b"\xff\xfe") {
         return utf16(rest, u16::from_le_bytes).into();
     }

@@ -1,6 +1,6 @@
 //! What can be wrong with a table of numbers, in words.
 
-use std::ops::Range;
+use std::{fmt, mem, ops::Range};
 
 use dashpot_network::parameters::Dimension;
 use thiserror::Error;
@@ -12,7 +12,7 @@ pub(crate) const MOST_ROWS: usize = 1_000_000;
 
 /// What is wrong with a table, and where.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("line {line}{}: {fault}", .column.as_ref().map_or_else(String::new, |own| format!(", column `{own}`")))]
+#[error("line {line}{}: {fault}{}", .column.as_ref().map_or_else(String::new, |own| format!(", column `{own}`")), .likewise.as_ref().map_or_else(String::new, |own| format!("; {own}")))]
 pub struct TableError {
     /// The line, from 1.
     pub line: usize,
@@ -22,18 +22,59 @@ pub struct TableError {
     pub fault: Box<TableFault>,
     /// The bytes of the text that it is about.
     pub span: Range<usize>,
+    /// The further lines with the same fault in the same column.
+    pub likewise: Option<Likewise>,
+}
+
+/// Further lines with a fault.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Likewise {
+    /// The first ones, from 1.
+    pub lines: Vec<usize>,
+    /// How many there are in all, one or more.
+    pub count: usize,
+}
+
+/// So many lines are named.
+const NAMED: usize = 3;
+
+impl Likewise {
+    pub(crate) fn add(&mut self, line: usize) {
+        if self.lines.len() < NAMED {
+            self.lines.push(line);
+        }
+        self.count += 1;
+    }
+}
+
+impl fmt::Display for Likewise {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines = self.lines.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let word = if self.count == 1 { "line" } else { "lines" };
+        write!(f, "likewise in {word} {lines}")?;
+        match self.count - self.lines.len() {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
 }
 
 impl TableError {
     /// A fault at the bytes `span` of `text`.
     pub(crate) fn new(text: &str, span: Range<usize>, fault: TableFault) -> Self {
         let line = 1 + text.get(..span.start).map_or(0, |before| before.matches('\n').count());
-        Self { line, column: None, fault: Box::new(fault), span }
+        Self { line, column: None, fault: Box::new(fault), span, likewise: None }
     }
 
     /// The same, about a column.
     pub(crate) fn in_column(self, name: String) -> Self {
         Self { column: Some(name), ..self }
+    }
+
+    /// Whether it is the same kind of fault in the same column.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        mem::discriminant(&*self.fault) == mem::discriminant(&*other.fault)
+            && self.column == other.column
     }
 
     /// How to put it right, where that can be said.

@@ -27,6 +27,8 @@ pub(super) struct Layout<'t> {
     pub(super) table: usize,
     /// Where the rows begin.
     pub(super) rows: usize,
+    /// Where they end: lines of words behind them are no rows.
+    pub(super) end: usize,
 }
 
 impl<'t> Layout<'t> {
@@ -42,15 +44,67 @@ impl<'t> Layout<'t> {
         let units = header.and_then(|at| units_at(&rows, at).then_some(at + 1));
         let end = |at: usize| first[at].0 + first[at].1.len();
         let columns = rows[header.unwrap_or(from)].fields.len();
+        let begin = units.or(header).map_or_else(|| first[from].0, end);
+        let names = header.map(|at| rows[at].fields.clone());
         Some(Self {
             separator,
             columns,
             table: first[header.unwrap_or(from)].0,
-            rows: units.or(header).map_or_else(|| first[from].0, end),
-            header: header.map(|at| rows[at].fields.clone()),
+            rows: begin,
+            end: end_of_rows(text, begin, separator),
+            header: names.or_else(|| names_in_comment(&text[..begin], separator, columns)),
             units: units.map(|at| rows[at].fields.clone()),
         })
     }
+
+    /// The lines of the rows, with where they begin.
+    pub(super) fn lines<'a>(&self, text: &'a str) -> impl Iterator<Item = Line<'a>> + use<'a> {
+        lines(&text[..self.end], self.rows)
+    }
+}
+
+/// Names with units in the comment that ends the text before the rows, as some programs write them.
+fn names_in_comment(before: &str, separator: Separator, columns: usize) -> Option<Vec<Field<'_>>> {
+    let line = before.trim_end();
+    let start = line.rfind('\n').map_or(0, |at| at + 1);
+    let names = line[start..].trim_start_matches('\u{feff}').trim_start().strip_prefix('#')?;
+    let at = line.len() - names.len();
+    let mut fields = Vec::new();
+    let all = [separator].into_iter().chain(SEPARATORS);
+    let mut all = all.filter_map(|own| {
+        split(names, at, own, &mut fields);
+        let has_unit =
+            |field: &Field<'_>| field.name_and_unit().1.is_some_and(|unit| is_unit(unit.text));
+        let fits = fields.len() == columns && fields.iter().any(has_unit);
+        fits.then(|| fields.clone())
+    });
+    all.next()
+}
+
+/// Where the rows that begin at `start` end: a line of words behind the last row with a number is none.
+fn end_of_rows(text: &str, start: usize, separator: Separator) -> usize {
+    let mut fields = Vec::new();
+    let mut end = text.len();
+    let mut from = text.len();
+    while from > start {
+        let before = text[start..from].trim_end_matches(['\n', '\r']);
+        let begin = start + before.rfind('\n').map_or(0, |at| at + 1);
+        let Some((at, line)) = lines(&text[..from], begin).next() else {
+            from = begin;
+            continue;
+        };
+        split(line, at, separator, &mut fields);
+        let words = fields.iter().filter(|own| !own.text.is_empty()).count();
+        if fields.iter().any(|own| own.begins_with_number() || own.is_like_number()) {
+            return end;
+        }
+        if words > 1 && separator != Separator::Spaces {
+            return text.len();
+        }
+        (from, end) = (begin, begin);
+    }
+    // Without a number there is no last row.
+    text.len()
 }
 
 /// A line as fields, and how many of them are numbers or were meant as such.
@@ -113,8 +167,14 @@ fn start(rows: &[Row<'_>], separator: Separator) -> (Option<usize>, usize) {
         }
     }
     let Some(mut from) = first else {
-        // No row is in order.
-        return if rows[0].is_names(false) { (Some(0), 1) } else { (None, 0) };
+        // A table of words with one number, or no row is in order.
+        let is_row = |at: usize, wanted: usize| {
+            rows.get(at).is_some_and(|own| own.numbers > 0 && own.fields.len() == wanted)
+        };
+        let names =
+            (0..rows.len()).find(|&at| rows[at].is_names(true) && is_row(at + 1, width(at)));
+        let names = names.or_else(|| rows[0].is_names(false).then_some(0));
+        return (names, names.map_or(0, |at| at + 1));
     };
     // A row in which something is wrong is a row.
     while from > 0 && rows[from - 1].numbers > 0 && width(from - 1) == width(from) {
@@ -130,8 +190,8 @@ fn units_at(rows: &[Row<'_>], at: usize) -> bool {
     says_none && rows.get(at + 1).is_some_and(|own| own.is_units(rows[at].fields.len()))
 }
 
-/// What separates the columns: that by which most lines are rows of numbers, and, where that is none, the first
-/// one that the first line has.
+/// What separates the columns: that by which most lines are rows of numbers, and, where that is none, that which
+/// divides most lines.
 fn separator(first: &[Line<'_>]) -> Separator {
     let mut fields = Vec::new();
     let mut best: Option<(Separator, usize, usize)> = None;
@@ -152,9 +212,13 @@ fn separator(first: &[Line<'_>]) -> Separator {
     if let Some((separator, ..)) = best {
         return separator;
     }
-    let separates = |mark: char| first[0].1.split('"').step_by(2).any(|part| part.contains(mark));
-    let marks = [';', '\t'].into_iter().find(|mark| separates(*mark));
-    Separator::Mark(marks.unwrap_or(','))
+    // Words, perhaps with one number in a row: that which divides most lines.
+    let divided = |mark: char| {
+        let has = |line: &&Line<'_>| line.1.split('"').step_by(2).any(|part| part.contains(mark));
+        first.iter().filter(has).count()
+    };
+    let best = [',', '\t', ';'].into_iter().max_by_key(|mark| divided(*mark));
+    Separator::Mark(best.filter(|mark| divided(*mark) > 0).unwrap_or(','))
 }
 
 /// 2 for a row of numbers alone, 1 for one with two numbers among others. Spaces stand within texts and between
@@ -174,11 +238,13 @@ fn worth(fields: &[Field<'_>], separator: Separator) -> usize {
 ///
 /// The first number with a comma that may stand between thousands, where no other tells what it is.
 pub(super) fn decimal(text: &str, layout: &Layout<'_>) -> Result<Decimal, TableError> {
-    if layout.separator == Separator::Mark(',') {
-        return Ok(Decimal::Point);
-    }
     let (mut fields, mut open) = (Vec::new(), None);
-    for (at, line) in lines(text, layout.rows).filter(|(_, line)| line.contains([',', '.'])) {
+    // Where commas separate columns, one before decimals stands between quotes.
+    let may_tell = |line: &str| match layout.separator {
+        Separator::Mark(',') => line.contains('"'),
+        _ => line.contains([',', '.']),
+    };
+    for (at, line) in layout.lines(text).filter(|(_, line)| may_tell(line)) {
         split(line, at, layout.separator, &mut fields);
         for (column, field) in fields.iter().enumerate() {
             match decimal_of(field) {

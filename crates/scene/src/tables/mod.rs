@@ -25,13 +25,10 @@ use crate::units::{Quantity, UnitError, parse_quantity};
 pub(crate) use self::cells::{Field, is_no_unit};
 pub use self::{
     encoding::table_text,
-    fault::{TableError, TableFault},
+    fault::{Likewise, TableError, TableFault},
     guard::text_cell,
     left_out::LeftOut,
 };
-
-/// After so many faults the rest of a file is not looked at.
-pub(crate) const TOLD: usize = 10;
 
 /// A table of numbers in a text.
 ///
@@ -184,7 +181,7 @@ impl<'t> DataTable<'t> {
     /// The line of each row, from 1.
     pub fn lines(&self) -> Vec<usize> {
         let (mut line, mut counted) = (1, 0);
-        let rows = lines(self.text, self.layout.rows).map(|(at, _)| {
+        let rows = self.layout.lines(self.text).map(|(at, _)| {
             line += self.text[counted..at].matches('\n').count();
             counted = at;
             line
@@ -195,7 +192,19 @@ impl<'t> DataTable<'t> {
     /// The lines before the table that are no part of it, with their numbers from 1.
     pub fn skipped(&self) -> impl Iterator<Item = (usize, &'t str)> + '_ {
         let before = lines(self.text, 0).take_while(|(at, _)| *at < self.layout.table);
-        before.map(|(at, line)| (1 + self.text[..at].matches('\n').count(), line))
+        before.map(|(at, line)| (self.line_of(at), line))
+    }
+
+    /// The numbers, from 1, of the first and the last line of words behind the rows, which are no part of the table.
+    pub fn behind(&self) -> Option<[usize; 2]> {
+        let mut behind = lines(self.text, self.layout.end).map(|own| self.line_of(own.0));
+        let first = behind.next()?;
+        Some([first, behind.last().unwrap_or(first)])
+    }
+
+    /// The number of the line at a byte, from 1.
+    fn line_of(&self, at: usize) -> usize {
+        1 + self.text[..at].matches('\n').count()
     }
 
     /// The name of a column, and where it stands.
@@ -215,7 +224,7 @@ impl<'t> DataTable<'t> {
 
     /// The fields of each row, with the byte at which it begins.
     pub(crate) fn rows(&self) -> impl Iterator<Item = (usize, Vec<Field<'t>>)> + '_ {
-        lines(self.text, self.layout.rows).map(move |(at, row)| {
+        self.layout.lines(self.text).map(move |(at, row)| {
             let mut fields = Vec::with_capacity(self.layout.columns);
             split(row, at, self.layout.separator, &mut fields);
             (at, fields)
@@ -259,8 +268,8 @@ impl<'t> DataTable<'t> {
         scales: [Scale; N],
         mut note: impl FnMut(TableError),
     ) -> Option<Vec<(usize, [f64; N])>> {
-        let (mut told, mut all, mut fields) = (0, Vec::new(), Vec::new());
-        for (rows, (at, line)) in lines(self.text, self.layout.rows).enumerate() {
+        let (mut told, mut all, mut fields) = (Vec::<TableError>::new(), Vec::new(), Vec::new());
+        for (rows, (at, line)) in self.layout.lines(self.text).enumerate() {
             let span = at..at + line.len();
             if rows == MOST_ROWS {
                 note(TableError::new(self.text, span, TableFault::TooManyRows));
@@ -269,16 +278,17 @@ impl<'t> DataTable<'t> {
             split(line, at, self.layout.separator, &mut fields);
             match self.row(&fields, &span, columns, scales) {
                 Ok(values) => all.push((at, values)),
-                Err(fault) => {
-                    note(fault);
-                    told += 1;
-                    if told >= TOLD {
-                        break;
-                    }
-                }
+                Err(error) => match told.iter_mut().find(|known| known.is_like(&error)) {
+                    Some(known) => known.likewise.get_or_insert_default().add(error.line),
+                    None => told.push(error),
+                },
             }
         }
-        (told == 0).then_some(all)
+        if told.is_empty() {
+            return Some(all);
+        }
+        told.into_iter().for_each(note);
+        None
     }
 
     /// Some of the `fields` of the row at `span`, in SI units; the first fault where there is one.

@@ -110,9 +110,64 @@ fn cells_that_are_no_numbers_are_told_where_they_stand() {
 }
 
 #[test]
-fn a_file_full_of_faults_is_not_read_to_its_end() {
-    let text = "0;a\n1;b\n".repeat(1000);
-    assert_eq!(points(&text, [0, 1]).unwrap_err().len(), TOLD);
+fn faults_of_one_kind_are_one_with_the_first_lines_and_their_number() {
+    let text = "x;y\n".to_owned() + &"0;a\n1;b\n".repeat(1000) + "2;3;4\n";
+    let table = DataTable::read(&text).unwrap();
+    let mut told = Vec::new();
+    assert!(table.samples([0, 1], [Scale::SI; 2], |error| told.push(error.to_string())).is_none());
+    let [first, second] = &told[..] else { panic!("{told:?}") };
+    assert_eq!(
+        first,
+        "line 2, column `y`: `a` is not a number; likewise in lines 3, 4, 5 and 1996 more"
+    );
+    assert!(second.starts_with("line 2002: this row has 3 fields"), "{second}");
+}
+
+#[test]
+fn a_comma_before_decimals_may_stand_between_quotes() {
+    let expected = vec![(0.0, 1.5), (0.5, -2e3)];
+    for text in ["0,\"1,5\"\n\"0,5\",\"-2,0e3\"\n", "x,y\n\"0,0\",\"1,5\"\n\"0,5\",-2000\n"] {
+        assert_eq!(points(text, [0, 1]).unwrap(), expected, "{text}");
+    }
+    assert!(first("0,\"1,5\"\n\"2,5\",0.5\n").1.contains("has a point"));
+    assert!(first("1,\"1,000\"\n").1.contains("between thousands"));
+}
+
+#[test]
+fn words_behind_the_rows_are_no_part_of_the_table() {
+    let rows = "x;y\n0;1\n1;2\n";
+    for (end, behind) in [
+        ("", None),
+        ("\nEnd of the test\n", Some([5, 5])),
+        ("# rows\nEnd;;\n\nby hand\n\n", Some([5, 7])),
+    ] {
+        let text = format!("{rows}{end}");
+        let table = DataTable::read(&text).unwrap();
+        assert_eq!(points(&text, [0, 1]).unwrap(), [(0.0, 1.0), (1.0, 2.0)], "{end}");
+        assert_eq!((table.behind(), table.lines().len()), (behind, 2), "{end}");
+    }
+    // A row with a number, or as wide as the table, is one of it; so is what stands between rows.
+    for end in ["Max;2\n", "a;b\n", "in between\n2;3\n"] {
+        assert!(points(&format!("{rows}{end}"), [0, 1]).is_err(), "{end}");
+    }
+    let words = "material\neps\nepp\n";
+    assert_eq!(DataTable::read(words).unwrap().lines(), [2, 3]);
+}
+
+#[test]
+fn names_with_units_may_stand_in_the_comment_above() {
+    for text in [
+        "# a logger\n# time [ms], force [kN]\n0,1\n1,2\n",
+        "#time [ms]\tforce [kN]\n0 1\n1 2\n",
+        "\u{feff}# time (ms); force (kN)\n\n0;1\n1;2\n",
+    ] {
+        let table = DataTable::read(text).unwrap();
+        let told = [0, 1].map(|at| (table.heading(at).name, table.heading(at).unit));
+        assert_eq!(told, [("time", Some("ms")), ("force", Some("kN"))], "{text}");
+        assert_eq!(table.lines().len(), 2);
+    }
+    // Words without a unit are no names.
+    assert!(!DataTable::read("# by hand\n0 1\n").unwrap().has_header());
 }
 
 #[test]

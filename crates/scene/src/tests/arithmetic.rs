@@ -82,6 +82,18 @@ fn faults_of_arithmetic_point_at_the_part_that_is_wrong() {
 }
 
 #[test]
+fn units_and_scatter_in_the_wrong_place_have_a_remedy() {
+    for (new, help) in [
+        ("2^3 kN/m", "write `* 1 kN` in place of `kN`"),
+        ("E * area / thickness ± 5 %", "give it to one under [values], and compute with its name"),
+    ] {
+        let shown = messages(&SCENE.replacen("K / 2 + 10 kN/m", new, 1));
+        let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(help), "{new}: {shown}");
+    }
+}
+
+#[test]
 fn chains_of_values_have_a_limit() {
     let links = |step: i32| -> Vec<String> {
         (1..1000).map(|at| format!("a{at} = \"2 * a{} / 2\"", at + step)).collect()

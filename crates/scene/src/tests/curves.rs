@@ -127,6 +127,10 @@ impl Input {
             ("UTF-16", utf16.collect()),
             ("Latin-1", latin(format!("Temperatur: 23 °C; Dichte 30 µg/mm³\n{}\n{commas}", self.header(" in ", "", ";")))),
             ("powers of ten and separators at the end", format!("{};;\n{}", self.header(" [", "]", ";"), self.lines(|x, y| format!("{};{};;\n", science(x), science(y)))).into()),
+            ("quoted decimal commas between commas", format!("{bracketed}\n{}", self.lines(|x, y| format!("\"{}\",\"{}\"\n", comma(x), comma(y)))).into()),
+            ("words behind the rows", format!("{}\n{commas}\nEnde der Messung;\n", self.header(" [", "]", ";")).into()),
+            ("lines that end with CR", format!("{}\n{commas}", self.header(" [", "]", ";")).replace('\n', "\r").into()),
+            ("names in a comment", format!("# a logger\n# {bracketed}\n{points}").into()),
             ("other columns beside", format!("n;{y};T [°C];{x};state\n{}", self.lines(wide)).into()),
             ("bracketed units below", format!("{}\n[{}],[{}]\n{points}", self.names.join(","), self.units[0], self.units[1]).into()),
         ]

@@ -523,6 +523,21 @@ fn what_is_missing_is_said_of_the_file() {
 }
 
 #[test]
+fn of_many_faults_of_one_kind_the_first_are_shown_and_the_others_counted() {
+    let rows: Vec<String> =
+        (0..160).map(|at| format!("m{at} = {{ spring = \"5 N/n\" }}")).collect();
+    let text = format!("[models]\n{}\n{}", rows.join("\n"), on_model("spring = 1"));
+    let errors = read_text(&text).unwrap_err();
+    let shown = errors.render(false);
+    assert_eq!(shown.matches("error: ").count(), 3, "{shown}");
+    assert!(shown.contains("and 97 errors of the same kind, in lines 5, 6, 7"), "{shown}");
+    // Those to which something else is to be done are shown by themselves.
+    let two = "[models]\na = { spring = \"5 N/n\" }\nb = { spring = \"5 N/mk\" }\n";
+    let errors = read_text(&format!("{two}{}", on_model("spring = 1"))).unwrap_err();
+    assert_eq!(errors.render(false).matches("error: ").count(), 2, "{errors}");
+}
+
+#[test]
 fn a_diagnostic_knows_its_place() {
     let errors = read_text(FAULTS_OF_THE_NETWORK).unwrap_err();
     let first = &errors.list[0];

@@ -1,4 +1,6 @@
-//! Designs from a table: each row is one, each column a number of the scene.
+//! Designs from a table: each row is one, each column a number or a word of the scene.
+
+use std::mem;
 
 use thiserror::Error;
 
@@ -34,6 +36,9 @@ pub enum ListedFault {
     /// The table cannot be read.
     #[error("{0}")]
     Unreadable(TableError),
+    /// A word is missing in a column of words.
+    #[error("line {line}, column `{column}`: a word is missing here")]
+    EmptyWord { line: usize, column: String },
     /// More rows than a table may have.
     #[error("the table has more than {MOST} rows")]
     TooMany,
@@ -44,9 +49,9 @@ impl ListedFault {
     pub fn help(&self) -> String {
         match self {
             Self::Unreadable(error) if error.help().is_some() => error.help().unwrap_or_default(),
-            Self::Uneven { .. } | Self::Unreadable(_) => {
-                "numbers are bare, with a point for decimals; their unit stands in the first line, \
-                 such as `liner.thickness [mm]`"
+            Self::Uneven { .. } | Self::Unreadable(_) | Self::EmptyWord { .. } => {
+                "numbers are bare, their unit stands in the first line, such as `liner.thickness [mm]`; a column of \
+                 words, such as `liner.material`, has one in each row"
                     .to_owned()
             }
             _ => {
@@ -58,15 +63,24 @@ impl ListedFault {
     }
 }
 
+/// The designs of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed {
+    /// Its columns.
+    pub columns: Vec<Variation>,
+    /// The line of each design in the table, from 1.
+    pub lines: Vec<usize>,
+}
+
 impl Variation {
-    /// The columns of a table, `head.velocity [m/s],liner.thickness [mm]` and rows of numbers below: in place of
-    /// all combinations, they take the values of one row together. Columns are separated as in other tables, by
-    /// commas, semicolons or tabs.
+    /// The columns of a table, `head.velocity [m/s],liner.material` and rows of numbers and words below: in place of
+    /// all combinations, they take the values of one row together. A column without any number is one of words. All
+    /// else is as in other tables.
     ///
     /// # Errors
     ///
     /// What is wrong with the table, with its line and column.
-    pub fn listed(text: &str) -> Result<Vec<Self>, ListedFault> {
+    pub fn listed(text: &str) -> Result<Listed, ListedFault> {
         let table = DataTable::read(text).map_err(|error| match *error.fault {
             TableFault::Empty => ListedFault::Empty,
             _ => ListedFault::Unreadable(error),
@@ -81,37 +95,41 @@ impl Variation {
                 return Err(ListedFault::Nameless { column: at + 1 });
             }
             let unit = heading.unit.filter(|unit| !is_no_unit(unit)).unwrap_or_default();
-            columns.push(Self {
-                name: heading.name.to_owned(),
-                unit: unit.to_owned(),
-                numbers: Vec::new(),
-                values: Vec::new(),
-                dimension: None,
-                is_logarithmic: false,
-                is_range: false,
-                words: Vec::new(),
-            });
+            let unit = unit.to_owned();
+            columns.push(Self { unit, ..Self::of_words(heading.name, Vec::new()) });
         }
-        for ((at, fields), line) in table.rows().zip(table.lines()) {
+        let of_words = columns_of_words(&table, &columns);
+        let lines = table.lines();
+        for ((at, fields), &line) in table.rows().zip(&lines) {
             if fields.len() != columns.len() {
                 let (found, wanted) = (fields.len(), columns.len());
                 return Err(ListedFault::Uneven { line, found, wanted });
             }
             for (column, (own, field)) in columns.iter_mut().zip(&fields).enumerate() {
+                if of_words[column] {
+                    if field.text.is_empty() {
+                        return Err(ListedFault::EmptyWord { line, column: own.name.clone() });
+                    }
+                    own.words.push(field.text.to_owned());
+                    continue;
+                }
                 let number = table.number(field).map_err(|fault| {
                     let span = at..field.span().end;
                     ListedFault::Unreadable(table.error(span, column, fault))
                 })?;
                 own.numbers.push(number);
             }
-            if columns[0].numbers.len() > MOST {
-                return Err(ListedFault::TooMany);
-            }
         }
-        if columns[0].numbers.is_empty() {
-            return Err(ListedFault::Empty);
+        match lines.len() {
+            0 => return Err(ListedFault::Empty),
+            1..=MOST => {}
+            _ => return Err(ListedFault::TooMany),
         }
         for own in &mut columns {
+            if own.is_of_words() {
+                *own = Self::of_words(&own.name, mem::take(&mut own.words));
+                continue;
+            }
             let quantity = |at: usize| {
                 let error = |error| ListedFault::BadUnit { column: own.name.clone(), error };
                 parse_quantity(&own.text(at)).map_err(error)
@@ -121,8 +139,19 @@ impl Variation {
             let values = values.collect::<Result<_, _>>()?;
             (own.dimension, own.values) = (dimension, values);
         }
-        Ok(columns)
+        Ok(Listed { columns, lines })
     }
+}
+
+/// Which columns are of words: those without a unit in which no field is a number or was meant as one.
+fn columns_of_words(table: &DataTable<'_>, columns: &[Variation]) -> Vec<bool> {
+    let mut of_words: Vec<bool> = columns.iter().map(|own| own.unit.is_empty()).collect();
+    for (_, fields) in table.rows() {
+        for (own, field) in of_words.iter_mut().zip(&fields) {
+            *own &= !field.is_like_number();
+        }
+    }
+    of_words
 }
 
 #[cfg(test)]
@@ -136,13 +165,30 @@ mod tests {
             "# from the lab\n\"head.mass (kg)\";liner.thickness [mm]\n5;20\n\n4.5;15\n",
             "\u{feff}head.mass [kg]\tliner.thickness [mm]\r\n5\t20\r\n4.5\t15\r\n",
         ] {
-            let own = Variation::listed(text).unwrap();
+            let own = Variation::listed(text).unwrap().columns;
             let told: Vec<_> =
                 own.iter().map(|own| (&*own.name, &*own.unit, &own.values[..])).collect();
             let right: [(_, _, &[f64]); 2] =
                 [("head.mass", "kg", &[5.0, 4.5]), ("liner.thickness", "mm", &[0.02, 0.015])];
             assert_eq!(told, right, "{text:?}");
         }
+    }
+
+    #[test]
+    fn columns_without_a_number_are_words() {
+        let text = "Designs of spring\n\ndesign;liner.material;K [kN/m]\nA1;eps;1,5\n\nB 2;epp-30;2\nEnd\n";
+        let Listed { columns, lines } = Variation::listed(text).unwrap();
+        let told: Vec<_> = columns.iter().map(|own| (&*own.name, &own.words[..])).collect();
+        let words = |own: &[&str]| own.iter().map(|own| (*own).to_owned()).collect::<Vec<_>>();
+        let right = [
+            ("design", words(&["A1", "B 2"])),
+            ("liner.material", words(&["eps", "epp-30"])),
+            ("K", Vec::new()),
+        ];
+        assert_eq!(told, right.each_ref().map(|own| (own.0, &own.1[..])));
+        assert_eq!((&columns[2].values[..], &lines[..]), (&[1500.0, 2000.0][..], &[4, 6][..]));
+        let words = Variation::listed("liner.material\neps\nepp\n").unwrap().columns;
+        assert_eq!((words[0].words.len(), words[0].len()), (2, 2));
     }
 
     #[test]
@@ -158,6 +204,7 @@ mod tests {
             ("K,C\n1,2\n1,two\n", "line 3, column `C`: `two` is not a number"),
             ("K;C\n1;2,5\n2;1.5\n", "line 3, column `C`: `1.5` has a point, but"),
             ("K,C\n1,5 mm\n", "line 2, column `C`: `5 mm` has a unit"),
+            ("m,C\neps,1\n,2\n", "line 3, column `m`: a word is missing here"),
         ] {
             let fault = Variation::listed(text).unwrap_err();
             assert!(fault.to_string().contains(told), "{text:?}: {fault}");

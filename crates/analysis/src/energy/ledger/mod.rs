@@ -320,7 +320,8 @@ pub(crate) fn steps(solution: &Solution<'_>, primitives: Range<usize>, window: (
     }
     let springs = assembly.primitives.get(primitives).unwrap_or_default().iter();
     let springs = springs.filter(|primitive| {
-        matches!(primitive.element.law(), Law::Spring(_) | Law::Nonlinear { .. })
+        let own = EnergyRole::of(primitive.element.as_ref());
+        own.stores && (!own.dissipates || primitive.element.law() != Law::Phased)
     });
     springs
         .map(|primitive| {

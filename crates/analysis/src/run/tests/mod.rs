@@ -1,6 +1,8 @@
 mod faults;
+mod preloads;
 mod random;
 mod rest;
+mod single;
 
 use dashpot_dae::{Direction, Piece, Waveform};
 use dashpot_network::effects::{Gravity, GravityStart};

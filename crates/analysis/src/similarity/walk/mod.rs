@@ -30,6 +30,17 @@ pub(super) trait Visit {
     /// A number; what is returned stands in its place.
     fn quantity(&mut self, name: &str, dimension: Dimension, value: f64) -> f64;
 
+    /// A number of the point `at` of a curve; what is returned stands in its place.
+    fn point(
+        &mut self,
+        curve: &str,
+        (at, axis): (usize, &str),
+        dimension: Dimension,
+        value: f64,
+    ) -> f64 {
+        self.quantity(&format!("{curve}[{at}].{axis}"), dimension, value)
+    }
+
     /// What is no number: kinds, words, and what is joined to what.
     fn word(&mut self, _name: &str, _word: &str) {}
 
@@ -320,8 +331,8 @@ fn walk_value(
         }
         (ParameterKind::Curve(first, second), Value::Table(points)) => {
             let point = |(at, point): (usize, &(f64, f64))| {
-                let x = visit.quantity(&format!("{name}[{at}].x"), first, point.0);
-                (x, visit.quantity(&format!("{name}[{at}].y"), second, point.1))
+                let x = visit.point(name, (at, "x"), first, point.0);
+                (x, visit.point(name, (at, "y"), second, point.1))
             };
             Value::Table(points.iter().enumerate().map(point).collect())
         }

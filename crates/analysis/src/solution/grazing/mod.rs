@@ -42,9 +42,8 @@ fn earliest_end(forces: &[&Signal], window: (f64, f64), level: f64) -> Option<f6
     while level > finest.noise {
         let minimum = ForceMinimum::first(finest, window, level)?;
         let low = finest.value(minimum.low);
-        let agrees =
-            |other: f64| low > 0.0 && low.max(other) <= SAME * low.min(other) && low < level;
-        if !others.iter().all(|other| agrees(other.value(minimum.low))) {
+        let agrees = |other: f64| low.max(other) <= SAME * low.min(other) && low < level;
+        if low <= 0.0 || !others.iter().all(|other| agrees(other.value(minimum.low))) {
             let passage = finest.first_crossing(0.0, (minimum.start, minimum.low), Some(false));
             return Some(passage.map_or(minimum.start, |passage| passage.time));
         }
@@ -66,7 +65,7 @@ pub(crate) enum ForceOf {
 pub(crate) type UndecidedReleases = Vec<(ForceOf, f64)>;
 
 /// What a solution leaves open that `others`, which are coarser, do not agree on with it, where pulls below
-/// the part `threshold` of the largest force may be errors of it.
+/// the part `threshold` of the largest force may be errors of it; without others, where it pulls by less.
 pub(crate) fn undecided_releases<'a>(
     finest: &Solution<'a>,
     make_others: &dyn Fn() -> Vec<Solution<'a>>,

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use dashpot_analysis::{
     SolveSettings,
-    similarity::{FourParameterImpact, Groups, Quantity, Reference, SimilarityError},
+    similarity::{FourParameterImpact, Group, Groups, Quantity, Reference, SimilarityError},
 };
 use dashpot_network::{Network, parameters::Dimension};
 use dashpot_plot::Table;
@@ -210,11 +210,30 @@ impl Study for GroupsStudy {
 }
 
 impl GroupsStudy {
-    /// The groups that are not zero.
+    /// The groups that are not zero, those of the points of a curve together.
     fn table(&self) -> Table {
-        let rows = self.groups.groups.iter().filter(|group| group.value != 0.0);
-        let rows = rows.map(|row| vec![row.formula.clone(), significant(row.value, DIGITS)]);
-        Table::new("Independent groups", &["group", "value"], rows)
+        let mut rows: Vec<Vec<&Group>> = Vec::new();
+        for group in self.groups.groups.iter().filter(|group| group.value != 0.0) {
+            let own = &group.quantity.of_curve;
+            match rows.iter_mut().find(|row| own.is_some() && row[0].quantity.of_curve == *own) {
+                Some(row) => row.push(group),
+                None => rows.push(vec![group]),
+            }
+        }
+        let row = |row: &Vec<&Group>| {
+            let formula = row[0].formula.clone();
+            let ends = [f64::min, f64::max].map(|end| row.iter().map(|own| own.value).reduce(end));
+            match (row[0].quantity.of_curve.as_ref(), ends) {
+                (Some(curve), [Some(least), Some(most)]) if row.len() > 1 => {
+                    let units = formula.strip_prefix(&row[0].quantity.name).unwrap_or_default();
+                    let [least, most] = [least, most].map(|own| significant(own, DIGITS));
+                    let values = format!("{least} to {most} at {} points", row.len());
+                    vec![format!("{curve}{units}"), values]
+                }
+                _ => vec![formula, significant(row[0].value, DIGITS)],
+            }
+        };
+        Table::new("Independent groups", &["group", "value"], rows.iter().map(row))
     }
 
     /// How many groups there are, and what they refer to.

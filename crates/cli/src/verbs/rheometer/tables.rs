@@ -210,8 +210,10 @@ pub(super) fn agreement(report: &RheometerReport) -> Vec<String> {
             format!("differs by {} at most, at {at}{stated}", bound(own.relative))
         });
         let largest = relative_error(report, at);
-        let largest =
-            largest.map(|error| format!("its error may be {} of the largest value", bound(error)));
+        let largest = largest.map(|error| match error {
+            0.0 => "its values are those of the law, without an error but rounding".to_owned(),
+            _ => format!("its error may be {} of the largest value", bound(error)),
+        });
         let found = if is_alone { largest.unwrap_or_default() } else { found };
         let obstacle = by.obstacle.as_ref().map(|reason| match by.reach {
             Some(reach) => format!("reaches to {}, because {reason}", quantity(reach, place, 3)),
@@ -248,6 +250,9 @@ pub(super) fn error_of_all(tests: &[Made]) -> Option<String> {
     let method = all.first().filter(|_| all.len() > 1)?.0;
     let worst = all.iter().map(|own| own.1).fold(0.0, f64::max);
     let is_one = all.iter().all(|own| own.0 == method) && !method.starts_with("network");
-    let text = format!("network by {method}: errors may be {} of the largest values", bound(worst));
+    let text = match worst {
+        0.0 => format!("network by {method}: values of the law, without an error but rounding"),
+        _ => format!("network by {method}: errors may be {} of the largest values", bound(worst)),
+    };
     is_one.then_some(text)
 }

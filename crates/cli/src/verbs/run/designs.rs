@@ -1,6 +1,6 @@
 //! Designs side by side: several scenes, and a scene with other values.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{Judged, Judgement, Limit, RunReport};
 use dashpot_plot::{
@@ -27,7 +27,7 @@ use crate::{
     args::{Variant, When},
     error::{CliError, is_unit},
     folder::Staged,
-    input::title,
+    input::{Input, title},
     numbers::{bound, duration},
     operand::read_scene,
     origin,
@@ -37,6 +37,8 @@ use crate::{
     text::indented,
 };
 
+/// What stands where nothing is judged.
+const NO_VERDICT: &str = "–";
 /// Points of a curve in a figure.
 const POINTS: usize = 4001;
 
@@ -62,13 +64,14 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
     if let Some(unit) = paths.iter().flatten().copied().find(is_divided) {
         read_scene(Some(unit), &[], terminal)?;
     }
+    all_are_there(&arguments.scenes, terminal)?;
     let names = named(&paths);
     let only = varied(&arguments.variant).filter(|_| paths.len() == 1);
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {
         let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
             let mut scene = read_scene(*path, &set, terminal)?;
-            scene.add_limits(arguments.limits.all());
+            scene.add_limits(arguments.limits.beside(&scene.limits)?);
             let varied = only.and_then(|_| set.last().cloned());
             Ok(Named { name, scene, varied, set })
         };
@@ -86,6 +89,15 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
         }
     }
     Ok(all)
+}
+
+/// Tells of every file that cannot be read, before any is solved.
+fn all_are_there(paths: &[PathBuf], terminal: Terminal) -> Result<(), CliError> {
+    let files = paths.iter().filter(|path| path.as_os_str() != "-");
+    let mut unreadable: Vec<CliError> = files.filter_map(|path| Input::read(path).err()).collect();
+    let Some(last) = unreadable.pop() else { return Ok(()) };
+    unreadable.iter().for_each(|error| terminal.fail("", error));
+    Err(last)
 }
 
 /// The one name that all variants set, where there is one.
@@ -191,7 +203,7 @@ impl Designs {
         by_curve(self.best().map(|(own, run)| list(own.answer.compared(run, &own.name))))
     }
 
-    /// Of each design whether it keeps its limits; none where there is no limit.
+    /// Of each design whether it keeps its limits; none where no design has a limit.
     fn verdicts(&self) -> Vec<Line> {
         let line = |(own, run): (&Design, &RunReport)| {
             let judged = run.judged();
@@ -218,24 +230,32 @@ impl Designs {
                 (0, false) => "UNDECIDED",
                 _ => "FAIL",
             };
-            let text = format!("{} {kept}{open}{worst}", own.name);
-            (of > 0).then_some(Line { label, text })
+            if of == 0 {
+                let text =
+                    format!("{} has no limits; `--limit` sets them for all scenes", own.name);
+                return Line { label: NO_VERDICT, text };
+            }
+            Line { label, text: format!("{} {kept}{open}{worst}", own.name) }
         };
-        self.best().filter_map(line).collect()
+        let has_limits = self.best().any(|(_, run)| !run.limits.is_empty());
+        self.best().filter(|_| has_limits).map(line).collect()
     }
 
     /// What is said of each limit of any design.
     fn limits(&self) -> Table {
         let mut all: Vec<&Limit> = Vec::new();
         for limit in self.best().flat_map(|(_, run)| &run.limits) {
-            if !all.contains(&limit) {
+            if !all.iter().any(|known| known.is_same(limit)) {
                 all.push(limit);
             }
         }
         let row = |limit: &&Limit| {
             let cell = |(_, run): (&Design, &RunReport)| {
-                let judged = run.judged().into_iter().find(|own| own.limit == *limit);
-                judged.map_or(String::new(), |own| limits::short(run, &own))
+                let judged = run.judged().into_iter().find(|own| own.limit.is_same(limit));
+                judged.map_or_else(
+                    || format!("{NO_VERDICT} not a limit of this scene"),
+                    |own| limits::short(run, &own),
+                )
             };
             let kind = self.best().find_map(|(_, run)| run.measure(&limit.key));
             let name = format!("{} {}", limit.key, limits::stated(limit, kind));

@@ -133,14 +133,18 @@ fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
 }
 
 fn unit(kind: &str, si: &str, limit: &Limit) -> Unit {
-    unit_of_kind(kind, si).unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
+    let written = limit.unit.clone().or_else(|| unit_of_kind(kind, si));
+    written.unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
 }
 
 /// `at most 250 g (EN 1078:2012)`.
-pub(super) fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
+pub(crate) fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
     let level = match measure {
         Some(own) => level(limit, own.kind, own.unit),
-        None => numbers::significant(limit.bound.level(), MOST_DIGITS),
+        None => limit.measure().map_or_else(
+            || numbers::significant(limit.bound.level(), MOST_DIGITS),
+            |own| level(limit, own.word, (own.about.default)().unit()),
+        ),
     };
     let word = match limit.bound {
         Bound::Max(_) => "at most",

@@ -42,7 +42,7 @@ use self::{
     verdict::verdict,
 };
 pub(crate) use self::{
-    limits::level,
+    limits::{level, stated},
     measures::{measure_text, unit_of_kind},
 };
 use crate::{

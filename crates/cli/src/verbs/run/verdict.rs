@@ -30,6 +30,10 @@ const LITTLE: f64 = 5e-4;
 const ZERO: f64 = 1e-9;
 /// So many figures are named in one line.
 const NAMED: usize = 3;
+/// A figure is named whose error is so many times that of all others …
+const FAR_OFF: f64 = 10.0;
+/// … and more than this, relative.
+const ROUGH: f64 = 1e-3;
 /// What follows the release.
 const GLUED: &str = ", then it goes into tension (separation is not modelled)";
 /// Of a peak where the run ends.
@@ -256,7 +260,14 @@ impl Words<'_> {
                 };
                 let but = self.exceptions(reached);
                 let every = if but.is_empty() { "every figure" } else { "every other figure" };
-                format!("{but}{every} within {}{how}", bound(worst))
+                match self.far_off(reached) {
+                    Some((key, others)) => format!(
+                        "{but}`{key}` within {}, every other figure within {}{how}",
+                        bound(worst),
+                        bound(others)
+                    ),
+                    None => format!("{but}{every} within {}{how}", bound(worst)),
+                }
             }
         };
         let apart = answer.differences().iter().map(|entry| entry.relative).reduce(f64::max);
@@ -269,6 +280,17 @@ impl Words<'_> {
         });
         let cut = if found.is_cut { CUT } else { "" };
         Some(own + cut + &apart.unwrap_or_default())
+    }
+
+    /// The figure whose relative error is many times that of any other, and the largest of those.
+    fn far_off(&self, reached: &Reached<'_>) -> Option<(&str, f64)> {
+        let known = self.run.measures.iter().filter_map(|own| Some((own, own.relative_error()?)));
+        let is_small = |own: &MeasureReport| reached.small.iter().any(|small| small.key == own.key);
+        let mut known: Vec<(&MeasureReport, f64)> = known.filter(|own| !is_small(own.0)).collect();
+        known.sort_by(|one, other| other.1.total_cmp(&one.1));
+        let [first, second, ..] = known[..] else { return None };
+        let is_far = first.1 >= FAR_OFF * second.1 && second.1 > 0.0 && first.1 > ROUGH;
+        (is_far && reached.worst == Some(first.1)).then_some((first.0.key.as_str(), second.1))
     }
 
     /// The figures that are not as good as the others.

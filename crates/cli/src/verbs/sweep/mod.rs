@@ -7,13 +7,10 @@ mod gradient;
 mod page;
 mod points;
 mod titles;
+mod varied;
 mod words;
 
-use std::{
-    num::NonZero,
-    path::{Path, PathBuf},
-    thread::available_parallelism,
-};
+use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
 
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
@@ -23,12 +20,13 @@ use dashpot_analysis::{
         sweep as solve,
     },
 };
-use dashpot_scene::{
-    DataTable, Diagnostics, LeftOut, Posed, Scene, Tunables, Variation, pose, read,
-};
+use dashpot_scene::{Diagnostics, Posed, Scene, pose, read};
 use serde::Serialize;
 
-use self::words::{notes, summary};
+use self::{
+    varied::{Form, Varied},
+    words::{notes, summary},
+};
 use crate::{
     args::{
         LimitArguments, MOST_POINTS as MOST, SceneArguments, When, budget, method_names, samples,
@@ -69,8 +67,9 @@ pub(crate) struct SweepArguments {
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
     #[arg(long, value_name = "NAME=VALUES", required_unless_present_any = ["points", "gradient"])]
     vary: Vec<String>,
-    /// Designs from a table in place of all combinations: a CSV file whose first line names numbers of
-    /// the scene with their units, such as `head.velocity [m/s],liner.thickness [mm]`; each row is one.
+    /// Designs from a table in place of all combinations: a CSV file whose first line names numbers and words of
+    /// the scene with their units, such as `liner.thickness [mm],liner.material`; each row is one. Columns of
+    /// other words name the designs.
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     points: Option<PathBuf>,
     /// So many designs in place of all combinations: a Latin hypercube of the ranges; of a list, and of a range
@@ -138,135 +137,6 @@ impl From<EstimatedPoints> for Estimates {
     }
 }
 
-/// What varies, and how.
-struct Varied {
-    tunables: Tunables,
-    variations: Vec<Variation>,
-    /// The number of the scene that each variation is of.
-    matched: Vec<usize>,
-    /// What the command line gives of each, where a sample was taken of it: `5..30 MN/m`.
-    ranges: Vec<String>,
-    form: Form,
-}
-
-/// Which values go together.
-enum Form {
-    /// All combinations.
-    Combined,
-    /// All combinations of these; with words among them no number says how near points are to each other.
-    Mixed(Grid),
-    /// Those of one row of a table.
-    Listed,
-    /// Those of one design of a sample.
-    Sampled,
-}
-
-/// The designs in a file; lines of it that are left out are told.
-fn listed(file: &Path) -> Result<Vec<Variation>, CliError> {
-    let input = Input::read(file)?;
-    let text = input.text()?;
-    let fault = |fault| CliError::Listed { file: file.to_owned(), fault: Box::new(fault) };
-    let designs = Variation::listed(text).map_err(fault)?;
-    if let Some(lines) = DataTable::read(text).ok().as_ref().and_then(LeftOut::of) {
-        note(&format!("file `{}`: {lines}", file.display()));
-    }
-    Ok(designs)
-}
-
-impl Varied {
-    /// What the command line names of the scene with this text.
-    fn of(arguments: &SweepArguments, text: &str, file: &str) -> Result<Self, CliError> {
-        let tunables = Tunables::of(text, Some(file)).map_err(CliError::Scene)?;
-        let mut variations: Vec<Variation> = match &arguments.points {
-            Some(file) => listed(file)?,
-            None => {
-                arguments.vary.iter().map(|own| Variation::parse(own)).collect::<Result<_, _>>()?
-            }
-        };
-        let flag = if arguments.points.is_some() { "--points" } else { "--vary" };
-        let matched = tunables.matched(&mut variations);
-        let matched = matched.map_err(|fault| CliError::Tunable { flag, fault })?;
-        let mut form = if arguments.points.is_some() { Form::Listed } else { Form::Combined };
-        if let Some(count) = arguments.sample {
-            variations = Variation::sampled(&variations, count, arguments.seed);
-            // They are numbers of the scene once more.
-            let matched = tunables.matched(&mut variations);
-            matched.map_err(|fault| CliError::Tunable { flag, fault })?;
-            form = Form::Sampled;
-        } else if variations.iter().any(Variation::is_of_words) && variations.len() > 1 {
-            form = Grid::new(counts(&variations)).map_or(form, Form::Mixed);
-        }
-        let range = |own: &String| own.split_once('=').map_or("", |own| own.1).trim().to_owned();
-        let ranges = arguments.vary.iter().map(range).collect();
-        Ok(Self { tunables, variations, matched, ranges, form })
-    }
-
-    /// Whether the values of a row go together, in place of all combinations.
-    fn is_of_rows(&self) -> bool {
-        matches!(self.form, Form::Listed | Form::Sampled)
-    }
-
-    /// Whether nothing says how near its points are to each other.
-    fn is_apart(&self) -> bool {
-        self.is_of_rows() || self.variations.iter().any(Variation::is_of_words)
-    }
-
-    /// All points; `None` where there are too many.
-    fn grid(&self) -> Option<Grid> {
-        let grid = match &self.form {
-            Form::Combined if self.variations.is_empty() => Grid::new(vec![1]),
-            Form::Combined => Grid::new(counts(&self.variations)),
-            Form::Mixed(all) => Grid::new(vec![all.len()]),
-            Form::Listed | Form::Sampled => Grid::new(vec![self.variations[0].len()]),
-        };
-        grid.filter(|grid| grid.len() <= MOST)
-    }
-
-    /// Which of its values each parameter takes at a point of the grid.
-    fn places(&self, of_grid: &[usize]) -> Vec<usize> {
-        match &self.form {
-            Form::Combined => of_grid.to_vec(),
-            Form::Mixed(all) => all.places(of_grid[0]),
-            Form::Listed | Form::Sampled => vec![of_grid[0]; self.variations.len()],
-        }
-    }
-
-    /// The points at which something wrong with the values shows, rising: the corners of the grid, and every
-    /// word.
-    fn telling(&self, grid: &Grid) -> Vec<usize> {
-        let mut points: Vec<usize> = grid.corners().into_iter().take(MOST_CORNERS).collect();
-        for (axis, own) in self.variations.iter().enumerate().filter(|own| own.1.is_of_words()) {
-            let mut known: Vec<&str> = Vec::new();
-            for (place, word) in own.words.iter().enumerate() {
-                if known.contains(&word.as_str()) || known.len() >= MOST_CORNERS {
-                    continue;
-                }
-                known.push(word);
-                points.push(match &self.form {
-                    Form::Mixed(all) => all.on_axis(axis, place),
-                    _ => place,
-                });
-            }
-        }
-        points.sort_unstable();
-        points.dedup();
-        points
-    }
-
-    /// The text of the scene at a point of the grid.
-    fn text_at(&self, of_grid: &[usize]) -> String {
-        let all = self.matched.iter().zip(&self.variations).zip(self.places(of_grid));
-        let values: Vec<(usize, String)> =
-            all.map(|((at, own), place)| (*at, own.text(place))).collect();
-        self.tunables.text_with(&values)
-    }
-
-    /// Whether what is set by this name is among what varies.
-    fn has(&self, name: &str) -> bool {
-        self.tunables.anything(name).is_ok_and(|at| self.matched.contains(&at))
-    }
-}
-
 /// What was varied, in what, and what was found.
 struct Swept {
     scene: Scene,
@@ -297,6 +167,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let is_named = |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
     let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
     let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
+    let further = arguments.limits.beside(&scene.limits)?;
     let scene_point = |posed: Posed| {
         let method = match (&arguments.method, &posed.run.methods[..]) {
             (Some(wanted), _) => wanted,
@@ -305,7 +176,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         };
         let mut settings = posed.settings(method)?;
         settings.budget = arguments.budget.unwrap_or(settings.budget);
-        Limit::add(&mut settings.limits, arguments.limits.all());
+        Limit::add(&mut settings.limits, further.iter().cloned());
         settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
         Ok::<_, RunError>(ScenePoint { network: posed.network, settings })
     };
@@ -334,7 +205,12 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
     for point in varied.telling(&grid) {
         let text = varied.text_at(&grid.places(point));
-        let found = read(&text, &input.options(&set)).map_err(CliError::Scene)?.warnings;
+        let found = read(&text, &input.options(&set)).map_err(CliError::Scene);
+        let in_line = varied.lines.get(point).zip(arguments.points.as_ref());
+        if let (Err(_), Some((line, file))) = (&found, in_line) {
+            note(&format!("line {line} of `{}` gives these values:", file.display()));
+        }
+        let found = found?.warnings;
         let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
         shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
     }
@@ -360,13 +236,6 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
     Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
 }
-
-fn counts(variations: &[Variation]) -> Vec<usize> {
-    variations.iter().map(Variation::len).collect()
-}
-
-/// So many corners of the grid are read before anything is solved.
-const MOST_CORNERS: usize = 64;
 
 fn solved(
     (arguments, estimates): (&SweepArguments, Estimates),
@@ -451,7 +320,7 @@ impl Study for Swept {
         let parameters = list(parameters.map(|(at, (own, &tunable))| {
             object! {
                 name: &own.name,
-                path: &self.varied.tunables.all()[tunable].path,
+                path: tunable.map(|at| &self.varied.tunables.all()[at].path),
                 unit: self.unit(at),
                 values: if own.is_of_words() { Values::Words(&own.words) } else { Values::Numbers(&own.values) },
             }

@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{
     Judgement, Limit, Reason, Warning,
-    sweep::{Column, Estimates, PartialOfSweep, SweepReport, SweepWarning},
+    sweep::{Column, Estimates, Gap, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
@@ -45,8 +45,8 @@ impl SweepArguments {
 impl Swept {
     /// SI unit of a parameter.
     pub(super) fn unit(&self, parameter: usize) -> String {
-        let own = self.varied.tunables.all()[self.varied.matched[parameter]].dimension;
-        let dimension = self.varied.variations[parameter].dimension.or(own);
+        let own = || self.varied.tunables.all()[self.varied.matched[parameter]?].dimension;
+        let dimension = self.varied.variations[parameter].dimension.or_else(own);
         dimension
             .filter(|dimension| *dimension != Dimension::NUMBER)
             .map_or("1".to_owned(), si_unit)
@@ -62,11 +62,12 @@ impl Swept {
         }
     }
 
-    /// The values of all parameters at a point.
+    /// The values of all parameters at a point, with the line of a table in which they stand.
     pub(super) fn at(&self, point: usize) -> String {
+        let line = self.varied.lines.get(point).map(|line| format!("line {line}"));
         let all = self.values_at(point).into_iter().zip(&self.varied.variations);
         let all = all.map(|(value, own)| format!("{} = {value}", own.name));
-        all.collect::<Vec<_>>().join(", ")
+        line.into_iter().chain(all).collect::<Vec<_>>().join(", ")
     }
 
     /// The same without the names.
@@ -77,7 +78,10 @@ impl Swept {
 
     /// One line for each parameter.
     pub(super) fn in_words(&self) -> Vec<String> {
-        let line = |(place, (own, &at)): (usize, (&Variation, &usize))| {
+        let line = |(place, (own, &at)): (usize, (&Variation, &Option<usize>))| {
+            let Some(at) = at else {
+                return format!("{}: names the designs of the table", own.name);
+            };
             let last = own.len() - 1;
             let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
             let path = &self.varied.tunables.all()[at].path;
@@ -280,7 +284,7 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));
     all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
-    all.extend(missing(report, points));
+    all.extend(missing(swept));
     all
 }
 
@@ -288,7 +292,7 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
 pub(super) fn warned(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let partial = report.partial.iter().flat_map(|own| left_out(own, report));
-    let all = warnings(swept, report, points).into_iter().chain(missing(report, points));
+    let all = warnings(swept, report, points).into_iter().chain(missing(swept));
     all.chain(partial).collect()
 }
 
@@ -317,7 +321,8 @@ pub(super) fn solving(swept: &Swept) -> Vec<String> {
 /// The numbers with scatter that do not vary here.
 fn means(swept: &Swept) -> impl Iterator<Item = String> {
     let Varied { tunables, matched, .. } = &swept.varied;
-    let is_varied = |path: &str| matched.iter().any(|at| tunables.all()[*at].path == path);
+    let is_varied =
+        |path: &str| matched.iter().flatten().any(|at| tunables.all()[*at].path == path);
     let held = swept.scene.scatter.iter().filter(move |own| !is_varied(&own.path));
     held.map(|own| format!("{}: {}", own.name, Remark::Mean(own.text.clone())))
 }
@@ -400,16 +405,23 @@ fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<Stri
     all
 }
 
-fn missing(report: &SweepReport, points: usize) -> Vec<String> {
-    let mut all = Vec::new();
-    let failed: Vec<_> = report.gaps.iter().filter(|gap| gap.column.is_none()).collect();
-    if let Some(first) = failed.first() {
-        let have = if failed.len() == 1 { "has" } else { "have" };
-        all.push(format!(
-            "{} {have} no solution; the first: {}",
-            counted(failed.len()),
-            first.reason
-        ));
+fn missing(swept: &Swept) -> Vec<String> {
+    let (report, points) = (&swept.report, swept.report.points());
+    let mut failed: Vec<(&Gap, usize)> = Vec::new();
+    for gap in report.gaps.iter().filter(|gap| gap.column.is_none()) {
+        match failed.iter_mut().find(|known| known.0.reason == gap.reason) {
+            Some(known) => known.1 += 1,
+            None => failed.push((gap, 1)),
+        }
+    }
+    let sentence = |(first, count): &(&Gap, usize)| {
+        let have = if *count == 1 { "has" } else { "have" };
+        let (counted, first_at) = (counted(*count), swept.at(first.point));
+        format!("{counted} {have} no solution, first at {first_at}: {}", first.reason)
+    };
+    let mut all: Vec<String> = failed.iter().take(MOST_FAULTS).map(sentence).collect();
+    if let Some(more @ 1..) = failed.len().checked_sub(MOST_FAULTS) {
+        all.push(format!("and {more} more reasons why points have no solution"));
     }
     let mut counts: Vec<(usize, &str, usize)> = Vec::new();
     for gap in &report.gaps {

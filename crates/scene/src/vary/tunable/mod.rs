@@ -153,7 +153,7 @@ impl Tunables {
             own.paths.extend(inner);
         }
         let is_ruled = |own: &&(Vec<String>, Range<usize>, String)| {
-            own.0[0] != RUN.0 && !own.0.iter().any(|part| part == "between")
+            !own.0.iter().any(|part| part == "between")
         };
         for (path, span, word) in found.words.iter().filter(is_ruled).cloned() {
             own.paths.push((path.clone(), own.all.len()));
