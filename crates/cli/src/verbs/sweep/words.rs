@@ -10,7 +10,7 @@ use dashpot_scene::{Remark, Variation, units::si_unit};
 
 use super::{Form, SweepArguments, Swept, Varied};
 use crate::{
-    numbers::{self, Unit, apart, bound, duration, estimate, significant},
+    numbers::{self, Unit, apart, bound, counted, duration, estimate, significant},
     output::list,
     verbs::run::{level, unit_of_kind},
 };
@@ -322,21 +322,17 @@ fn means(swept: &Swept) -> impl Iterator<Item = String> {
     held.map(|own| format!("{}: {}", own.name, Remark::Mean(own.text.clone())))
 }
 
-fn counted(points: usize) -> String {
-    if points == 1 { "1 point".to_owned() } else { format!("{points} points") }
-}
-
 fn solved(report: &SweepReport, points: usize) -> String {
     match (report.instantiated, points - report.instantiated) {
         (0, 1) => "1 point, solved in full".to_owned(),
         (0, full) => format!("{full} points, each solved in full"),
         (instantiated, 0) => {
-            format!("{}, instantiated from one compiled form", counted(instantiated))
+            format!("{}, instantiated from one compiled form", counted(instantiated, "point"))
         }
         (instantiated, full) => {
             format!(
                 "{} instantiated from one compiled form, {full} solved in full",
-                counted(instantiated)
+                counted(instantiated, "point")
             )
         }
     }
@@ -348,7 +344,9 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     let known = &swept.scene.assembly.warnings;
     let sentence = |(at, own): (usize, &SweepWarning)| {
         let first = own.points.first().map_or(String::new(), |point| swept.at(*point));
-        let of = if own.points.len() == points {
+        let of = if points == 1 {
+            "at the only point".to_owned()
+        } else if own.points.len() == points {
             format!("at all {points} points")
         } else {
             format!("at {} of {points} points", own.points.len())
@@ -389,7 +387,7 @@ fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<Stri
         )
     };
     let names = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
-    let checked = counted(partial_of_sweep.checked.len());
+    let checked = counted(partial_of_sweep.checked.len(), "point");
     let mut all = vec![format!(
         "left out everywhere: {names}{most}; solved with and without it at {checked}{saving}"
     )];
@@ -407,7 +405,7 @@ fn missing(report: &SweepReport, points: usize) -> Vec<String> {
         let have = if failed.len() == 1 { "has" } else { "have" };
         all.push(format!(
             "{} {have} no solution; the first: {}",
-            counted(failed.len()),
+            counted(failed.len(), "point"),
             first.reason
         ));
     }
