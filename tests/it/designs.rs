@@ -53,6 +53,8 @@ fn scenes_stand_side_by_side_each_with_its_verdict() {
     assert!(figure.contains("soft") && figure.contains("stiff"));
     let rows = |name: &str| fs::read_to_string(results.join(name)).unwrap().lines().count();
     assert_eq!((rows("1-soft.csv"), rows("2-stiff.csv")), (502, 502));
+    let events = fs::read_to_string(results.join("events.csv")).unwrap();
+    assert!(events.starts_with("design,time [s],error [s],event,what\n"), "{events}");
 }
 
 #[test]

@@ -435,6 +435,10 @@ impl Study for Designs {
         if has(Written::Page) {
             files.add(files::PAGE, page.html())?;
         }
+        if has(Written::Events) {
+            let runs = self.best().map(|(own, run)| (own.name.as_str(), run));
+            files.add_with(files::EVENTS, |out| files::write_events("design", runs, out))?;
+        }
         for (at, (own, run)) in self.best().enumerate().filter(|_| has(Written::Curves)) {
             let times = files::sample_times(run, &own.answer.scene.run);
             let name = curves_file(at, &own.name);
