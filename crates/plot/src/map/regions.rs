@@ -7,7 +7,7 @@ use crate::{axis::Frame, text_metrics::one_line, theme};
 
 /// Distance of lines and dots \[px\].
 const STEP: [f64; 2] = [14.0, 9.0];
-/// A band of errors is seen where it is a larger part of the range of values.
+/// A band of errors is seen where it is a larger part of the limit, or of the range of values.
 const SEEN: f64 = 0.003;
 /// Radius of a dot and of what surrounds it \[px\].
 const DOT: [f64; 2] = [1.5, 2.6];
@@ -92,21 +92,30 @@ impl MapLimit {
 
     /// Whether so many of them do not that it is seen.
     pub(super) fn is_dotted(&self) -> bool {
+        let Some(sign) = self.sign() else { return false };
         let known = || self.values.iter().copied().filter(|own| own.is_finite());
         let span =
             known().fold(f64::NEG_INFINITY, f64::max) - known().fold(f64::INFINITY, f64::min);
-        let near = self.values.iter().zip(&self.errors);
-        let mut near = near.filter(|(own, error)| (*own - self.at).abs() <= **error);
-        self.doubted.contains(&true) || near.any(|(_, error)| *error > SEEN * span)
+        let size = if self.at == 0.0 { span } else { span.min(self.at.abs()) };
+        let is_beyond = |own: f64| sign * own > sign * self.at;
+        let mut doubted = self.values.iter().zip(&self.doubted);
+        let mut near = self.values.iter().zip(&self.errors);
+        doubted.any(|(own, is_doubted)| *is_doubted && !is_beyond(*own))
+            || near.any(|(own, error)| (own - self.at).abs() <= *error && *error > SEEN * size)
+    }
+
+    /// By what values are multiplied to rise to where the limit is exceeded; `None` where it has no such side.
+    fn sign(&self) -> Option<f64> {
+        match self.kept {
+            Side::Below => Some(1.0),
+            Side::Above => Some(-1.0),
+            Side::Either => None,
+        }
     }
 
     /// Values that rise to where the limit is exceeded, and their level on its line.
     fn rising(&self) -> Option<(Vec<f64>, f64)> {
-        let sign = match self.kept {
-            Side::Below => 1.0,
-            Side::Above => -1.0,
-            Side::Either => return None,
-        };
+        let sign = self.sign()?;
         Some((self.values.iter().map(|own| sign * own).collect(), sign * self.at))
     }
 

@@ -146,6 +146,9 @@ fn doubted_values_are_dotted_where_they_keep_the_limit() {
     // All of the frame, without what is beyond the limit.
     let beyond = svg.split("class=\"beyond\"").nth(1).unwrap();
     assert!(clip.contains(value(beyond, "d")) && clip.contains("clip-rule=\"evenodd\""));
+    // Of what is exceeded there is no doubt.
+    own.limits[0].at = 0.5;
+    assert!(!own.svg().contains("dotted"));
     own.limits[0].at = 1e6;
     assert!(own.svg().contains("at most 200: exceeded nowhere; dotted: undecided"));
 }
