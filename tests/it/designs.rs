@@ -53,6 +53,8 @@ fn scenes_stand_side_by_side_each_with_its_verdict() {
     assert!(figure.contains("soft") && figure.contains("stiff"));
     let rows = |name: &str| fs::read_to_string(results.join(name)).unwrap().lines().count();
     assert_eq!((rows("1-soft.csv"), rows("2-stiff.csv")), (502, 502));
+    let events = fs::read_to_string(results.join("events.csv")).unwrap();
+    assert!(events.starts_with("design,time [s],error [s],event,what\n"), "{events}");
 }
 
 #[test]
@@ -61,7 +63,7 @@ fn variants_are_designs_besides_the_scene_as_it_is() {
     let told = |more: &[&str]| words(&out(&run(&[&["run"], more].concat())));
     let of_one = told(&[&soft, "--variant", "K=36 kN/m", "--variant", "K=49 kN/m"]);
     let row =
-        "measure K=25 kN/m K=36 kN/m K=49 kN/m unit pad.peak-force 1.581139 1.897367 2.213594 kN";
+        "measure, by K 25 kN/m 36 kN/m 49 kN/m unit pad.peak-force 1.581139 1.897367 2.213594 kN";
     assert!(of_one.contains(row), "{of_one}");
     let of_two = json(&["run", &soft, &stiff, "--variant", "K=36 kN/m", "--json"]);
     let runs = of_two["runs"].as_array().unwrap();
@@ -75,6 +77,29 @@ fn variants_are_designs_besides_the_scene_as_it_is() {
     for key in ["measures", "limits", "energy"] {
         assert_eq!(runs[2][key], alone["runs"][0][key]);
     }
+}
+
+#[test]
+fn designs_that_differ_in_a_number_and_more_have_its_order_in_colours_and_the_rest_in_patterns() {
+    let (folder, [soft, _]) = written();
+    let results = folder.path().join("results");
+    let variants = ["K=64 kN/m", "K=64 ± 1 kN/m, pad.thickness=9 cm", "K=36 kN/m"]
+        .map(|own| ["--variant", own]);
+    let out = ["--sample", "4", "--out", results.to_str().unwrap()];
+    let output = run(&[&["run", &soft][..], &variants.concat(), &out].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let svg = fs::read_to_string(results.join("force-time.svg")).unwrap();
+    let groups = svg.split("<g ").filter(|own| own.starts_with("class=\"series\""));
+    let drawn: Vec<(&str, bool)> = groups
+        .map(|own| {
+            let stroke = own.split("stroke=\"").nth(1).unwrap().split('"').next().unwrap();
+            (stroke, own.contains("stroke-dasharray"))
+        })
+        .collect();
+    let [lowest, highest, also_highest, middle] = drawn[..] else { panic!("{drawn:?}") };
+    assert_eq!([lowest.1, highest.1, also_highest.1, middle.1], [false, false, true, false]);
+    assert_eq!(highest.0, also_highest.0);
+    assert!(lowest.0 != highest.0 && middle.0 != highest.0 && middle.0 != lowest.0, "{drawn:?}");
 }
 
 #[test]

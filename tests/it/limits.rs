@@ -100,6 +100,24 @@ fn what_follows_the_impact_and_exceeds_a_limit_leaves_it_undecided() {
 }
 
 #[test]
+fn what_pulls_harder_than_it_pushes_is_told_to_let_go() {
+    // V √(k m) is 2 kN in compression and 4 kN in tension.
+    let scene = "[nodes]\nhead = { mass = \"4 kg\", velocity = \"5 m/s\" }\n[elements]\n\
+         pad = { between = [\"head\", \"ground\"], piecewise-spring = [[\"-1 m\", \"-160 kN\"], [0, 0], \
+         [\"1 m\", \"40 kN\"]] }\n[limits]\npad.peak-force = \"3 kN\"\n[run]\nduration = \"80 ms\"\n";
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "scene.toml", scene).to_str().unwrap().to_owned();
+    for more in [&[][..], &["--variant", "head.mass=5 kg"]] {
+        let told = out(&run(&[&["run", &path], more].concat()));
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(told.contains("lets go with `separation.pad = {}` under [effects]"), "{told}");
+    }
+    let parted = scene.replace("[limits]", "[effects]\nseparation.pad = {}\n[limits]");
+    let path = file(&folder, "parted.toml", &parted).to_str().unwrap().to_owned();
+    assert_eq!(json(&["run", &path, "--json"])["runs"][0]["limits"][0]["verdict"], "pass");
+}
+
+#[test]
 fn a_limit_within_the_error_is_undecided_until_more_accuracy_decides_it() {
     let coarse = ["--method", "bdf", "--accuracy", "2%"];
     let first = of_force(PEAK, &coarse);

@@ -118,3 +118,47 @@ fn figures_of_a_drop_count_from_first_touch_and_show_the_direction_of_loading() 
         last = from;
     }
 }
+
+#[test]
+fn what_is_undecided_is_dotted_in_maps_and_lines_and_maps_of_a_wide_range_go_by_ratios() {
+    let folder = TempDir::new().unwrap();
+    // On a spring known up to 10.2 mm: beyond V √(m/K) = 10.2 mm, 2.04 m/s, its force is extrapolated, and up to
+    // V √(K m) = 482 N, 2.41 m/s, it would keep the limit.
+    let scene = "[nodes]\nhead = { mass = \"1 kg\", velocity = \"5 m/s\" }\n[elements]\n\
+        pad = { between = [\"head\", \"ground\"], table-spring = [[\"0 mm\", 0], [\"10.2 mm\", \"408 N\"]] }\n\
+        [limits]\npad.peak-force = \"482 N\"\n[run]\nduration = \"100 ms\"\n";
+    let path = file(&folder, "scene.toml", scene).to_str().unwrap().to_owned();
+    let results = folder.path().join("results");
+    let swept = |speeds: &str, more: &[&str]| {
+        let own = ["sweep", &path, "--vary", speeds, "--measure", "pad.peak-force"];
+        let out = ["--out", results.to_str().unwrap()];
+        let output = run(&[&own[..], more, &out].concat());
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        let map = fs::read_to_string(results.join("pad.peak-force-map.svg")).unwrap_or_default();
+        (fs::read_to_string(results.join("pad.peak-force.svg")).unwrap(), map)
+    };
+    let speeds = "head.velocity=1.6..2.8 m/s,13";
+    let (lines, _) = swept(speeds, &[]);
+    assert!(lines.contains("dotted: undecided"), "{lines}");
+    // 2.1 to 2.4 m/s are open: plain up to 2.0, dotted to 2.5, plain again.
+    let dotted: Vec<&str> =
+        lines.split("<g ").filter(|own| own.contains("stroke-dasharray=\"20 40\"")).collect();
+    let curves = points(&lines, "series", "polyline");
+    let ends = |own: &[(f64, f64)]| (own[0].0, own[own.len() - 1].0);
+    let step = (ends(&curves[1]).1 - ends(&curves[0]).0) / 12.0;
+    assert!((ends(&curves[0]).1 - ends(&curves[0]).0 - 4.0 * step).abs() < 2.0, "{curves:?}");
+    assert!((ends(&curves[1]).0 - ends(&curves[0]).1 - 5.0 * step).abs() < 2.0, "{curves:?}");
+    assert_eq!((dotted.len(), curves.len()), (1, 2 + 5));
+    let (_, map) = swept(speeds, &["--vary", "head.mass=0.7..1.3 kg,5"]);
+    assert!(map.contains("class=\"undecided\"") && map.contains("dotted: undecided"), "{map}");
+    // Forces from V √(K m) = 0.23 kN to 6.4 kN have colours by their ratios.
+    let (lines, map) = swept("head.velocity=1.6,2,4,16 m/s", &["--vary", "head.mass=0.5,1,2,4 kg"]);
+    assert!(lines.contains("undecided") && map.contains("undecided"));
+    let bar = map.split("<g class=\"bar\">").nth(1).unwrap().split("</g>").nth(1).unwrap();
+    let place = |number: &str| -> f64 {
+        let tag = bar.split("<text ").find(|own| own.contains(&format!(">{number}<"))).unwrap();
+        value(tag, " y").parse().unwrap()
+    };
+    let octave = place("0.5") - place("1");
+    assert!((place("1") - place("2") - octave).abs() < 0.2, "{bar}");
+}

@@ -17,6 +17,11 @@ pub(crate) fn constant(value: f64, si: &str) -> String {
     rounded(value, si, MOST_DIGITS)
 }
 
+/// A number of things: `1 design`, `2 designs`.
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A time that a computer took.
 pub(crate) fn duration(time: Duration) -> String {
     format_quantity(time.as_secs_f64(), Dimension::TIME, 2)

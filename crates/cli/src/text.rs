@@ -87,20 +87,32 @@ pub(crate) fn indented_line(line: &str) -> String {
     line[..indent].to_owned() + &hanging(text, WIDTH - indent.min(WIDTH / 2))
 }
 
-/// The table as tables of at most `width` columns, where its first column stands before each part of
-/// the others.
-pub(crate) fn side_by_side(table: &Table, width: usize) -> Vec<Table> {
+/// The table as tables of at most `width` columns, where its first columns, `lead` of them, stand before each part of
+/// the others; where they take more than half of the width, the numbers of the rows do.
+pub(crate) fn side_by_side(table: &Table, lead: usize, width: usize) -> Vec<Table> {
+    if self::width(table) <= width {
+        return vec![table.clone()];
+    }
+    let first = |row: &Vec<String>| row[..row.len().min(lead)].to_vec();
+    let leading = Table {
+        header: first(&table.header),
+        rows: table.rows.iter().map(first).collect(),
+        ..Table::default()
+    };
+    if lead > 1 && 2 * self::width(&leading) > width {
+        return side_by_side(&numbered(table), 1, width);
+    }
     let part = |columns: &[usize]| {
         let pick = |row: &Vec<String>| -> Vec<String> {
-            let all = std::iter::once(&0).chain(columns);
-            all.filter_map(|&column| row.get(column).cloned()).collect()
+            let all = (0..lead).chain(columns.iter().copied());
+            all.filter_map(|column| row.get(column).cloned()).collect()
         };
         let rows = table.rows.iter().map(pick).collect();
         Table { caption: table.caption.clone(), header: pick(&table.header), rows }
     };
     let count = table.rows.iter().map(Vec::len).fold(table.header.len(), usize::max);
     let mut parts: Vec<Vec<usize>> = vec![Vec::new()];
-    for column in 1..count {
+    for column in lead..count {
         let last = parts.len() - 1;
         let mut with = parts[last].clone();
         with.push(column);
@@ -111,6 +123,19 @@ pub(crate) fn side_by_side(table: &Table, width: usize) -> Vec<Table> {
         }
     }
     parts.iter().map(|columns| part(columns)).collect()
+}
+
+/// The table with the numbers of its rows before them.
+fn numbered(table: &Table) -> Table {
+    let before = |number: String, row: &Vec<String>| {
+        std::iter::once(number).chain(row.iter().cloned()).collect()
+    };
+    let rows = table.rows.iter().enumerate().map(|(at, row)| before((at + 1).to_string(), row));
+    Table {
+        caption: table.caption.clone(),
+        header: before("row".to_owned(), &table.header),
+        rows: rows.collect(),
+    }
 }
 
 /// The rows of a table as lines of at most `width` columns: where they do not fit, the last column is
@@ -152,6 +177,12 @@ pub(crate) fn labelled(label: &str, label_width: usize, text: &str, width: usize
         shown.push('\n');
     }
     shown
+}
+
+/// A text with a capital first letter.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Every line indented by two columns.
@@ -209,11 +240,34 @@ mod tests {
         let header = ["", "one", "two", "three"].map(str::to_owned).to_vec();
         let rows = rows(&[&["a", "1", "2", "3"], &["b", "4", "5", "6"]]);
         let whole = Table { caption: "map".to_owned(), header, rows };
-        assert_eq!(side_by_side(&whole, 80), std::slice::from_ref(&whole));
-        let parts = side_by_side(&whole, 11);
+        assert_eq!(side_by_side(&whole, 1, 80), std::slice::from_ref(&whole));
+        let parts = side_by_side(&whole, 1, 11);
         let shown: Vec<_> = parts.iter().map(table).collect();
         assert_eq!(shown[0].0, "   one  two");
         assert_eq!(shown[1], ("   three".to_owned(), vec!["a      3".into(), "b      6".into()]));
+    }
+
+    #[test]
+    fn each_part_of_a_table_begins_with_what_leads_its_rows() {
+        let header = ["material", "speed", "force", "depth"].map(str::to_owned).to_vec();
+        let rows = rows(&[&["eps", "5", "1.5", "2.5"], &["epp", "6", "3.5", "4.5"]]);
+        let whole = Table { caption: String::new(), header, rows };
+        let headers = |width: usize| -> Vec<String> {
+            side_by_side(&whole, 2, width).iter().map(|own| table(own).0).collect()
+        };
+        assert_eq!(headers(29), ["material  speed  force  depth"]);
+        // The lead takes more than half of this.
+        let parts = side_by_side(&whole, 2, 28);
+        let shown: Vec<_> = parts.iter().map(table).collect();
+        assert_eq!(shown[0].0, "row  material  speed  force");
+        assert_eq!(shown[1].1, ["1      2.5", "2      4.5"]);
+        let wide = Table {
+            header: [&whole.header[..], &whole.header[2..]].concat(),
+            rows: whole.rows.iter().map(|row| [&row[..], &row[2..]].concat()).collect(),
+            ..Table::default()
+        };
+        let shown: Vec<_> = side_by_side(&wide, 2, 36).iter().map(|own| table(own).0).collect();
+        assert_eq!(shown, ["material  speed  force  depth  force", "material  speed  depth"]);
     }
 
     #[test]

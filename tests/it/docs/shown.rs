@@ -68,13 +68,18 @@ fn missing<'t>(shown: &'t str, printed: &str) -> Option<&'t str> {
 
 /// The part of a report that a kind of block shows.
 fn part<'t>(kind: &str, output: &'t str) -> Option<&'t str> {
-    let until = match kind {
+    let until: &[&str] = match kind {
         "shown" => return Some(output),
-        "verdict" => "\n\n  measure ",
-        "report" => "\n\n  method ",
+        "verdict" => &["  measure"],
+        "report" => &["  method ", "  design "],
         _ => return None,
     };
-    output.split(until).next()
+    // The paragraph in which a line begins so does not belong to it.
+    let is_next =
+        |own: &&str| own.lines().any(|line| until.iter().any(|own| line.starts_with(own)));
+    let kept = output.split("\n\n").take_while(|own| !is_next(own));
+    let length = kept.map(|own| own.len() + 2).sum::<usize>().saturating_sub(2);
+    output.get(..length.min(output.len()))
 }
 
 /// The texts in a drawing.

@@ -110,7 +110,7 @@ impl SweepReport {
     }
 
     /// Why a limit that is kept may not be, at each point.
-    pub(crate) fn doubts(&self, limit: &Limit) -> Vec<Option<Reason>> {
+    pub fn doubts(&self, limit: &Limit) -> Vec<Option<Reason>> {
         let mut doubts = vec![None; self.points()];
         for own in &self.warnings {
             let doubt = own.warning.doubt(limit, own.points.len() > 1);

@@ -139,8 +139,16 @@ impl Text {
 
     /// The header and the rows of a table.
     pub(crate) fn rows(&mut self, content: &Table) {
-        for part in side_by_side(content, WIDTH - 2) {
-            let (header, rows) = table(&part);
+        self.rows_led(content, 1);
+    }
+
+    /// The same, where so many first columns stand before each part.
+    pub(crate) fn rows_led(&mut self, content: &Table, lead: usize) {
+        for (at, part) in side_by_side(content, lead, WIDTH - 2).iter().enumerate() {
+            if at > 0 {
+                self.blank();
+            }
+            let (header, rows) = table(part);
             let lines = header.lines().chain(rows.iter().map(String::as_str));
             for line in lines.filter(|line| columns(line) > 0) {
                 self.line(&format!("  {line}"));

@@ -11,6 +11,7 @@ use crate::{
     args::ValueArguments,
     error::{CliError, Status},
     non_identifiable::notes,
+    numbers::counted,
     operand::read_scene,
     terminal::{Terminal, WIDTH, note, print},
     text::hanging,
@@ -95,8 +96,4 @@ pub(crate) fn undefined(scene: &Scene) -> Result<Vec<String>, CliError> {
     let found = undefined_measures(&scene.assembly, &scene.settings(method)?)?;
     let text = |(key, why): &(String, Note)| format!("`{key}` can have no value: {why}");
     Ok(found.iter().map(text).collect())
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }

@@ -242,11 +242,17 @@ impl Scale {
     /// A logarithmic scale without a unit of its own for values that are positive and span two decades or more, else a
     /// linear one.
     pub fn suiting(values: impl IntoIterator<Item = f64>) -> Self {
+        Self::of_ratios_from(LEAST_RATIO, values)
+    }
+
+    /// A logarithmic scale without a unit of its own for values that are positive and the largest of which is at least
+    /// `ratio` times the smallest, else a linear one.
+    pub fn of_ratios_from(ratio: f64, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = values
             .into_iter()
             .filter(|own| own.is_finite())
             .fold((f64::INFINITY, 0.0_f64), |(low, high), own| (low.min(own), high.max(own)));
-        if low > 0.0 && high >= LEAST_RATIO * low { Self::logarithmic("") } else { Self::Linear }
+        if low > 0.0 && high >= ratio * low { Self::logarithmic("") } else { Self::Linear }
     }
 
     /// Whether `value` has a place on the scale.

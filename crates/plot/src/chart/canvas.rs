@@ -60,7 +60,7 @@ pub(super) fn dashes(pattern: Pattern) -> &'static str {
     match pattern {
         Pattern::Solid | Pattern::Broad | Pattern::Stems => "",
         Pattern::Dashed => " stroke-dasharray=\"80 50\"",
-        Pattern::Dotted => " stroke-dasharray=\"20 40\"",
+        Pattern::Dotted | Pattern::Measured => " stroke-dasharray=\"20 40\"",
         Pattern::DashDotted => " stroke-dasharray=\"110 40 20 40\"",
     }
 }

@@ -147,9 +147,14 @@ impl Chart {
             colour: theme::INK,
         };
         let markers = marked.into_iter().zip(anchors).map(marker_text).collect();
+        let room = frame.right - frame.left - 2.0 * theme::HALO_WIDTH;
         // A line has many places for its text, a point has few.
         let limit_text = |(limit, [start, _]): (&ReferenceLine, Ends)| {
             let text = one_line(&limit.label);
+            let text = match limit.direction {
+                Direction::Horizontal => clip_width(&text, theme::TICK_SIZE, room),
+                Direction::Vertical => text,
+            };
             let (anchor, is_upright) = match limit.direction {
                 Direction::Horizontal => (placer.along(start.1, &text, theme::TICK_SIZE), false),
                 Direction::Vertical => {
@@ -179,5 +184,22 @@ mod tests {
             assert!(pair[1].x >= end || pair[1].y > pair[0].y);
         }
         assert!(legend.height() > 5.0 * Legend::ROW);
+    }
+
+    #[test]
+    fn the_text_of_a_limit_stays_within_the_frame_of_a_phone() {
+        let label = "max 20 kN, of the mean (EN 1621-1:2012, level 2)".to_owned();
+        let line = ReferenceLine { direction: Direction::Horizontal, at: 3.0, label, colour: None };
+        let series = vec![crate::Series::new("pad", vec![(0.0, 0.0), (1.0, 5.0)])];
+        let chart = Chart { series, lines: vec![line], ..Chart::default() };
+        let svg = chart.narrow_svg().unwrap();
+        let text = svg.split("class=\"limit-labels\"").nth(1).unwrap();
+        let text = text.split("<text ").nth(1).unwrap();
+        let left: f64 =
+            text.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        let words = text.split('>').nth(1).unwrap().split('<').next().unwrap().trim();
+        assert!(words.starts_with("max 20 kN") && words.ends_with('…'), "{words}");
+        let right = left / theme::OVERSAMPLING + text_width(words, theme::TICK_SIZE);
+        assert!(left > 0.0 && right <= theme::PHONE.width, "{text}");
     }
 }

@@ -61,7 +61,7 @@ pub struct Chart {
     /// Limits and other constants.
     pub lines: Vec<ReferenceLine>,
     /// How many of the curves, the first ones, belong to values of one number. Their colours run from dark to bright, in
-    /// the order of the numbers of their strokes or else their own.
+    /// the order of the numbers of their strokes or else their own; curves of the same number have the same colour.
     pub family: usize,
     /// Whether arrowheads tell in which direction curves are run through, as where a loop is loaded and unloaded.
     pub has_arrows: bool,
@@ -107,6 +107,8 @@ pub enum Pattern {
     Dotted,
     /// A line of dashes and dots.
     DashDotted,
+    /// A dotted line in the colour of ink, whatever its number: what was measured, beside curves in colours.
+    Measured,
     /// A vertical line to each point with a disc at its end, as of a spectrum of single lines.
     Stems,
 }
@@ -162,8 +164,12 @@ impl Chart {
     /// Colour and pattern of the `index`-th curve.
     fn pen(&self, index: usize) -> Pen {
         let Stroke { colour, pattern } = self.stroke(index);
-        let colour = if index < self.family {
-            let last = self.family.saturating_sub(1).max(1);
+        let colour = if pattern == Pattern::Measured {
+            theme::INK
+        } else if index < self.family {
+            let numbers =
+                (0..self.family.min(self.series.len())).map(|own| self.stroke(own).colour);
+            let last = numbers.max().unwrap_or(0).max(1);
             theme::ramp_colour(colour as f64 / last as f64)
         } else {
             theme::curve_colour(colour)

@@ -31,16 +31,18 @@ pub(super) fn measured(runs: &[RunSeries], (x, y): (Of, Of)) -> Vec<MeasuredSeri
     found
 }
 
-/// The curves in the units of the axes, dotted, in the colours after the first `taken` ones.
+/// The curves in the units of the axes: one as what was measured, more of them dotted in the colours after the first
+/// `taken` ones.
 pub(super) fn series(
     all: &[MeasuredSeries],
     taken: usize,
     (x, y): (Unit, Unit),
 ) -> impl Iterator<Item = Series> {
+    let pattern = if all.len() == 1 { Pattern::Measured } else { Pattern::Dotted };
     all.iter().enumerate().map(move |(at, own)| Series {
         name: own.name.clone(),
         points: own.points.iter().map(|point| (point.0 / x.factor, point.1 / y.factor)).collect(),
-        stroke: Some(Stroke { colour: taken + at, pattern: Pattern::Dotted }),
+        stroke: Some(Stroke { colour: taken + at, pattern }),
     })
 }
 

@@ -21,7 +21,8 @@ use crate::{Chart, Direction, Pattern, Series, Stroke, theme::COLOURS};
 
 pub use measured::MeasuredSeries;
 pub use run_series::{
-    ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunSeries,
+    ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunRank,
+    RunSeries,
 };
 pub use vibration::{VibrationCurve, VibrationSeries};
 pub use work_precision::{PrecisionCurve, PrecisionSeries};
@@ -205,6 +206,11 @@ fn has_order(runs: &[RunSeries], shown: &[Quantity]) -> bool {
 const DESIGNS: [Pattern; 4] =
     [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted];
 
+/// Pattern and colour of a design that has a place in an order.
+fn ordered(own: RunRank) -> (Pattern, usize) {
+    (DESIGNS[own.group % DESIGNS.len()], own.place)
+}
+
 /// Curves scaled from SI to the units of the axes: one colour per quantity, one pattern per run, and of a single
 /// quantity of several designs one colour per design. Of several methods the first is broad and pale, so that another
 /// one on it stays visible.
@@ -227,8 +233,9 @@ fn curves(
                 (_, true) if of_run.is_design => of_run.name.clone(),
                 _ => format!("{}, {}", quantity.name, of_run.name),
             };
+            let rank = of_run.rank.filter(|_| has_order);
             let (pattern, colour) = match run {
-                _ if has_order => (Pattern::Solid, of_run.rank.unwrap_or(run)),
+                _ if rank.is_some() => rank.map_or((Pattern::Solid, run), ordered),
                 _ if of_run.is_design && alone => (DESIGNS[run / COLOURS % DESIGNS.len()], run),
                 _ if of_run.is_design => (DESIGNS[run % DESIGNS.len()], colour),
                 0 if runs.len() > 1 => (Pattern::Broad, colour),
@@ -366,14 +373,16 @@ pub(crate) mod tests {
         assert_eq!(colours, [Some(0), Some(1), Some(2)]);
         assert!(chart.markers.is_empty() && chart.family == 0);
         let ordered = designs.clone().map(|own| {
-            let rank = ["steel", "soft", "stiff"].iter().position(|name| *name == own.name);
+            let place = ["steel", "soft", "stiff"].iter().position(|name| *name == own.name);
+            let rank = place.map(|place| RunRank { place, group: usize::from(place == 2) });
             RunSeries { rank, ..own }
         });
         let family = FORCE_DEFORMATION.chart(&ordered);
         let strokes: Vec<_> = family.series.iter().filter_map(|own| own.stroke).collect();
         let ranks: Vec<usize> = strokes.iter().map(|own| own.colour).collect();
         assert_eq!((family.family, ranks), (3, vec![1, 2, 0]));
-        assert!(strokes.iter().all(|own| own.pattern == Pattern::Solid));
+        let patterns: Vec<Pattern> = strokes.iter().map(|own| own.pattern).collect();
+        assert_eq!(patterns, [Pattern::Solid, Pattern::Dashed, Pattern::Solid]);
         let lines: Vec<&str> = chart.lines.iter().map(|own| own.label.as_str()).collect();
         assert_eq!(lines, ["thickness of soft: 30 mm", "thickness of stiff, steel: 20 mm"]);
     }

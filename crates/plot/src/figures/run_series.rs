@@ -13,8 +13,8 @@ pub struct RunSeries {
     pub name: String,
     /// Whether it is one of several designs, and not of several methods of the same scene.
     pub is_design: bool,
-    /// Of designs that differ in one number: its place in their rising order, from 0.
-    pub rank: Option<usize>,
+    /// Of designs that differ in a number: its place in their order.
+    pub rank: Option<RunRank>,
     /// Sample times \[s\], ascending: from the start of the run, or from the first touch.
     pub time: Vec<f64>,
     /// When in the run \[s\] an impactor that falls or flies first touches something: 0 of `time` and of the times of
@@ -34,6 +34,15 @@ pub struct RunSeries {
     pub limits: Vec<RunLimit>,
     /// What was measured, beside the curves; equal ones of several runs are drawn once.
     pub measured: Vec<MeasuredSeries>,
+}
+
+/// The place of a design among others by one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct RunRank {
+    /// Its place in the rising order of the numbers, from 0, which gives its colour.
+    pub place: usize,
+    /// Which designs it is like in all else, from 0, which gives its pattern.
+    pub group: usize,
 }
 
 /// One element at the sample times.

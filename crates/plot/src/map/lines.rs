@@ -3,18 +3,20 @@
 use std::fmt::Write as _;
 
 use super::{
-    Map, MapLimit, Side,
+    Map, MapLimit,
     bands::Field,
     colours::Colours,
     contours::contours,
     texts::{Texts, length},
 };
-use crate::{axis::Frame, text_metrics::one_line, theme};
+use crate::{axis::Frame, theme};
 
 /// Width of the lines of equal value, of limits, and of what surrounds these \[px\].
 const LINES: [f64; 3] = [0.9, 2.6, 5.0];
 /// A line of equal value carries its number if it is longer than this \[px\].
 const LEAST_LABELLED: f64 = 70.0;
+/// Levels within this part of each other are the same.
+const SAME: f64 = 1e-9;
 
 impl Map {
     /// A place in units of the grid's steps on the canvas.
@@ -39,7 +41,7 @@ impl Map {
     }
 
     /// Whether these are values at the points of the map.
-    fn are_on_grid(&self, values: &[f64]) -> bool {
+    pub(super) fn are_on_grid(&self, values: &[f64]) -> bool {
         !self.x.is_empty() && values.len() == self.x.len() * self.y.len()
     }
 
@@ -94,7 +96,10 @@ impl Map {
             theme::PAPER.hex(),
             LINES[0]
         );
-        for &level in colours.axis.ticks() {
+        // A limit has a line of its own.
+        let is_limit =
+            |level: f64| self.shown.iter().any(|own| (own - level).abs() <= SAME * level.abs());
+        for &level in colours.axis.ticks().iter().filter(|own| !is_limit(**own)) {
             let lines = {
                 let level = (shares, colours.axis.fraction(level));
                 self.on_canvas(frame, level, |own| field.is_smooth(own))
@@ -111,82 +116,22 @@ impl Map {
     pub(super) fn limit_lines(&self, frame: &Frame, limit: &MapLimit) -> Vec<Vec<(f64, f64)>> {
         self.on_canvas(frame, (&limit.values, limit.at), |_| true)
     }
-
-    /// Draws the lines of a limit over a hatching of what lies beyond it.
-    pub(super) fn draw_limit(
-        &self,
-        svg: &mut String,
-        frame: &Frame,
-        (limit, lines): (&MapLimit, &[Vec<(f64, f64)>]),
-        pattern: &str,
-    ) {
-        if !self.are_on_grid(&limit.values) {
-            return;
-        }
-        let sign = match limit.kept {
-            Side::Below => 1.0,
-            Side::Above => -1.0,
-            Side::Either => 0.0,
-        };
-        if limit.kept != Side::Either {
-            let signed = limit.values.iter().map(|own| sign * own).collect();
-            let region = Field::whole(signed, self.x.len()).region(sign * limit.at);
-            let data = self.outlines(frame, region);
-            if !data.is_empty() {
-                let _ = writeln!(
-                    svg,
-                    "<path class=\"beyond\" d=\"{data}\" fill=\"url(#{pattern})\" fill-rule=\"evenodd\"/>"
-                );
-            }
-        }
-        for (class, colour, width) in
-            [("halo", theme::PAPER, LINES[2]), ("limits", theme::LIMIT, LINES[1])]
-        {
-            let _ = writeln!(
-                svg,
-                "<g class=\"{class}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\" \
-                 stroke-linejoin=\"round\">",
-                colour.hex(),
-            );
-            lines.iter().for_each(|line| draw_path(svg, line));
-            svg.push_str("</g>\n");
-        }
-    }
 }
 
-impl MapLimit {
-    /// What is to be said of it without a line: that all of the map lies on one side of it.
-    pub(super) fn unlined(&self) -> Option<String> {
-        let mut known = self.values.iter().filter(|own| own.is_finite()).peekable();
-        known.peek()?;
-        let [above, below] =
-            [known.clone().all(|own| *own >= self.at), known.clone().all(|own| *own <= self.at)];
-        let word = match self.kept {
-            Side::Below if below => "kept everywhere",
-            Side::Above if above => "kept everywhere",
-            Side::Below if above => "kept nowhere",
-            Side::Above if below => "kept nowhere",
-            _ => return None,
-        };
-        Some(format!("{}: {word}", one_line(&self.label)))
+/// Draws the lines of a limit.
+pub(super) fn draw_limit(svg: &mut String, lines: &[Vec<(f64, f64)>]) {
+    for (class, colour, width) in
+        [("halo", theme::PAPER, LINES[2]), ("limits", theme::LIMIT, LINES[1])]
+    {
+        let _ = writeln!(
+            svg,
+            "<g class=\"{class}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\" \
+             stroke-linejoin=\"round\">",
+            colour.hex(),
+        );
+        lines.iter().for_each(|line| draw_path(svg, line));
+        svg.push_str("</g>\n");
     }
-}
-
-/// The pattern of what a limit forbids, of this name: lines that are seen on dark and on bright colours.
-pub(super) fn hatch(pattern: &str) -> String {
-    let line = |colour: theme::Colour, width: f64, opacity: f64| {
-        format!(
-            "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"14\" stroke=\"{}\" stroke-width=\"{width}\" \
-             stroke-opacity=\"{opacity}\"/>",
-            colour.hex()
-        )
-    };
-    format!(
-        "<defs><pattern id=\"{pattern}\" width=\"14\" height=\"14\" patternUnits=\"userSpaceOnUse\" \
-         patternTransform=\"rotate(45)\">{}{}</pattern></defs>\n",
-        line(theme::PAPER, 3.4, 0.3),
-        line(theme::LIMIT, 1.3, 0.6),
-    )
 }
 
 /// A closed outline without the places that lie straight between their neighbours.

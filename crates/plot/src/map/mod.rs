@@ -5,6 +5,7 @@ mod bar;
 mod colours;
 mod contours;
 mod lines;
+mod regions;
 #[cfg(test)]
 mod tests;
 mod texts;
@@ -14,7 +15,8 @@ use std::fmt::Write as _;
 use self::{
     bands::Field,
     colours::Colours,
-    lines::{draw_path, hatch},
+    lines::{draw_limit, draw_path},
+    regions::patterns,
     texts::{Texts, text, upright},
 };
 use crate::{
@@ -49,6 +51,7 @@ use crate::{
 ///         at: 1.0,
 ///         label: "as deep as it is thick".into(),
 ///         kept: Side::Below,
+///         ..MapLimit::default()
 ///     }],
 ///     ..Map::default()
 /// };
@@ -85,7 +88,7 @@ pub struct Map {
 }
 
 /// A line on which a quantity has a certain value, such as that of a padding pressed to nothing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct MapLimit {
     /// The quantity, row by row.
     pub values: Vec<f64>,
@@ -95,6 +98,11 @@ pub struct MapLimit {
     pub label: String,
     /// On which side of the line the limit is kept; the other one is hatched.
     pub kept: Side,
+    /// Absolute errors of the quantity, row by row: where the line lies within them, it is undecided whether the limit
+    /// is kept. Empty where values stand for themselves.
+    pub errors: Vec<f64>,
+    /// Where a value decides nothing unless it is beyond the line, row by row; empty for nowhere.
+    pub doubted: Vec<bool>,
 }
 
 /// The side of a line of equal value.
@@ -121,6 +129,8 @@ impl Map {
 
 /// Bands of colour.
 const BANDS: usize = 32;
+/// What is said of dots.
+const UNDECIDED: &str = "dotted: undecided";
 /// How far a block reaches under what is beside it \[px\].
 const OVERLAP: f64 = 0.6;
 
@@ -158,7 +168,7 @@ impl Map {
         );
         let pattern = self.pattern(sheet);
         if self.limits.iter().any(|own| own.kept != Side::Either) {
-            svg += &hatch(&pattern);
+            svg += &patterns(&pattern);
         }
         let shares: Vec<f64> = (0..self.x.len() * self.y.len())
             .map(|at| self.values.get(at).map_or(f64::NAN, |own| colours.share(*own)))
@@ -169,8 +179,10 @@ impl Map {
         let mut own = String::new();
         let lines: Vec<_> =
             self.limits.iter().map(|limit| self.limit_lines(&frame, limit)).collect();
-        for (limit, of_limit) in self.limits.iter().zip(&lines) {
-            self.draw_limit(&mut own, &frame, (limit, of_limit), &pattern);
+        for (at, (limit, of_limit)) in self.limits.iter().zip(&lines).enumerate() {
+            self.draw_beyond(&mut own, &frame, limit, &pattern);
+            self.draw_undecided(&mut own, &frame, limit, (&pattern, at));
+            draw_limit(&mut own, of_limit);
         }
         for (at, limit) in self.limits.iter().enumerate() {
             let others = lines.iter().enumerate().filter(|other| other.0 != at);
@@ -186,7 +198,7 @@ impl Map {
         svg + "</svg>\n"
     }
 
-    /// A name for the hatching that other drawings on a page do not have (FNV-1a of what sets them apart).
+    /// A name for its patterns that other drawings on a page do not have (FNV-1a of what sets them apart).
     fn pattern(&self, sheet: Sheet) -> String {
         let texts = [&self.title, &self.note, &self.x_label, &self.y_label, &self.value_label];
         let bytes = texts.into_iter().flat_map(|own| own.bytes().chain([0]));
@@ -194,14 +206,16 @@ impl Map {
         let hash = all.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         });
-        format!("beyond-{hash:016x}")
+        format!("{hash:016x}")
     }
 
     /// The remark, and which limits are kept everywhere or nowhere.
     fn remark(&self) -> String {
         let unlined = self.limits.iter().filter_map(MapLimit::unlined);
         let own = Some(self.note.clone()).filter(|own| !own.is_empty());
-        own.into_iter().chain(unlined).collect::<Vec<_>>().join("; ")
+        let is_open = self.limits.iter().any(MapLimit::is_dotted);
+        let open = is_open.then(|| UNDECIDED.to_owned());
+        own.into_iter().chain(unlined).chain(open).collect::<Vec<_>>().join("; ")
     }
 
     /// Draws bands of colour where values run smoothly, each over the one below, and blocks elsewhere.

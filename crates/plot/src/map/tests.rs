@@ -15,7 +15,7 @@ fn map() -> Map {
             values: values.clone(),
             at: 4.5,
             label: "ξmax = 1".into(),
-            kept: Side::Either,
+            ..MapLimit::default()
         }],
         x,
         y,
@@ -65,6 +65,7 @@ fn product() -> Map {
             at: 200.0,
             label: "at most 200".into(),
             kept: Side::Below,
+            ..MapLimit::default()
         }],
         y: x.clone(),
         x,
@@ -91,6 +92,74 @@ fn a_limit_of_a_product_is_a_straight_line_on_logarithmic_axes() {
         assert!((sum - 200_f64.log10()).abs() < 0.002, "{sum}");
     }
     assert!(svg.contains("class=\"beyond\"") && svg.contains("<pattern"));
+}
+
+/// Twice the area that the closed outlines of a path enclose, those within others taken away.
+fn enclosed(data: &str) -> f64 {
+    let outline = |own: &str| {
+        let places: Vec<f64> =
+            own.trim_end_matches('Z').split(['L', ' ']).map(|own| own.parse().unwrap()).collect();
+        let corners: Vec<(f64, f64)> = places.chunks(2).map(|own| (own[0], own[1])).collect();
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(one, other)| one.0 * other.1 - other.0 * one.1).sum::<f64>()
+    };
+    let mut areas: Vec<f64> = data.split('M').skip(1).map(|own| outline(own).abs()).collect();
+    areas.sort_by(f64::total_cmp);
+    areas.pop().unwrap() - areas.iter().sum::<f64>()
+}
+
+#[test]
+fn the_band_of_errors_around_a_limit_is_dotted() {
+    let mut own = product();
+    assert!(!own.svg().contains("undecided"));
+    // The error is 5 % of the value: log x + log y is log 200 within log 1.05 on each side.
+    own.limits[0].errors = own.values.iter().map(|own| 0.05 * own).collect();
+    let svg = own.svg();
+    assert_well_formed(&svg);
+    assert!(svg.contains("dotted: undecided"));
+    let frame = tags(&svg, "axes", "rect")[0];
+    let number = |key: &str| -> f64 { value(frame, key).parse().unwrap() };
+    let band = svg.split("class=\"undecided\"").nth(1).unwrap().split("/>").next().unwrap();
+    assert!(band.contains("url(#open-") && !band.contains("clip-path"));
+    // Between log xy = a and b of two decades each lie ((4 − a)² − (4 − b)²)/8 of the frame.
+    let of = |level: f64| (4.0 - level.log10()).powi(2) / 8.0;
+    let exact = (of(200.0 / 1.05) - of(200.0 / 0.95)) * number("width") * number("height");
+    let found = 0.5 * enclosed(value(band, "d"));
+    assert!((found - exact).abs() < 0.01 * exact, "{found} {exact}");
+    for (kept, errors) in [(Side::Above, own.limits[0].errors.clone()), (Side::Below, Vec::new())] {
+        let limit = MapLimit { kept, errors, ..own.limits[0].clone() };
+        let is_open = kept == Side::Above;
+        let svg = Map { limits: vec![limit], ..own.clone() }.svg();
+        assert_eq!(svg.contains("class=\"undecided\""), is_open);
+    }
+}
+
+#[test]
+fn doubted_values_are_dotted_where_they_keep_the_limit() {
+    let mut own = product();
+    own.limits[0].doubted = vec![true; own.values.len()];
+    let svg = own.svg();
+    assert_well_formed(&svg);
+    let dotted = svg.split("class=\"undecided\"").nth(1).unwrap().split("/>").next().unwrap();
+    let clip = value(dotted, "clip-path").trim_start_matches("url(#").trim_end_matches(')');
+    let clip = svg.split(&format!("id=\"{clip}\"")).nth(1).unwrap();
+    // All of the frame, without what is beyond the limit.
+    let beyond = svg.split("class=\"beyond\"").nth(1).unwrap();
+    assert!(clip.contains(value(beyond, "d")) && clip.contains("clip-rule=\"evenodd\""));
+    // Of what is exceeded there is no doubt.
+    own.limits[0].at = 0.5;
+    assert!(!own.svg().contains("dotted"));
+    own.limits[0].at = 1e6;
+    assert!(own.svg().contains("at most 200: exceeded nowhere; dotted: undecided"));
+}
+
+#[test]
+fn a_line_of_equal_value_does_not_repeat_that_of_a_limit() {
+    let mut own = product();
+    let count = |own: &Map| tags(&own.svg(), "contours", "polyline").len();
+    let all = count(&own);
+    own.shown = vec![100.0];
+    assert_eq!(count(&own), all - 1);
 }
 
 #[test]

@@ -17,6 +17,7 @@ use crate::{
     folder::Staged,
     numbers::{percent_signed, share},
     output::{PAGE, csv, list},
+    text::capital,
 };
 
 /// Points of a curve of a model, and how far beyond its times it goes.
@@ -47,7 +48,7 @@ pub(super) fn series(report: &RheometerReport, units: Units) -> Option<Rheometer
     let held = report.settings.iter().filter(|setting| matches!(setting.name, "hold" | "rise"));
     let held: f64 = held.map(|held| held.value).sum();
     Some(RheometerSeries {
-        title: report.protocol.to_owned(),
+        title: capital(&report.protocol.replace('-', " ")),
         measured,
         model,
         simulated,

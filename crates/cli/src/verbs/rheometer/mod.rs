@@ -324,7 +324,7 @@ impl Study for Tested {
 
 /// Adds a table, in parts where it is too wide, and lines that still are cut.
 fn show(text: &mut Text, own: &Table) {
-    for part in text::side_by_side(own, WIDTH - 2) {
+    for part in text::side_by_side(own, 1, WIDTH - 2) {
         let (header, rows) = table(&part);
         for line in [header].iter().chain(&rows).filter(|line| !line.trim().is_empty()) {
             for (at, words) in cut(line).iter().enumerate() {

@@ -7,7 +7,7 @@ use dashpot_plot::{
     Report, ReportFigure, RunSeries, Table,
     figures::{FIGURES, FORCE_TIME},
 };
-use dashpot_scene::{Scene, Tunables, units::parse_quantity};
+use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
@@ -18,13 +18,14 @@ use super::{
     limits,
     measures::{Column, Side, measures_table, measures_tables},
     object::settings,
+    order::{self, Valued},
     resolved_scene, scatter,
     series::{curves, curves_and_energies},
     solving::settings_table,
     verdict::Line,
 };
 use crate::{
-    args::{Variant, When},
+    args::When,
     error::{CliError, is_unit},
     folder::Staged,
     input::{Input, title},
@@ -47,8 +48,8 @@ pub(super) struct Named {
     /// What it is called beside others.
     pub(super) name: String,
     pub(super) scene: Scene,
-    /// What alone varies between the designs of one scene, and its value.
-    pub(super) varied: Option<(String, String)>,
+    /// What the variants set, each with its value in this design.
+    pub(super) values: Vec<Valued>,
     /// The values that the command line sets.
     pub(super) set: Vec<(String, String)>,
 }
@@ -66,20 +67,20 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
     }
     all_are_there(&arguments.scenes, terminal)?;
     let names = named(&paths);
-    let only = varied(&arguments.variant).filter(|_| paths.len() == 1);
+    let varied = order::varied(&arguments.variant);
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {
         let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
             let mut scene = read_scene(*path, &set, terminal)?;
             scene.add_limits(arguments.limits.beside(&scene.limits)?);
-            let varied = only.and_then(|_| set.last().cloned());
-            Ok(Named { name, scene, varied, set })
+            let values = list(varied.iter().map(|own| Valued::of(&scene, &set, own)));
+            Ok(Named { name, scene, values, set })
         };
         let base = read(name.clone(), arguments.values.set.clone())?;
-        all.push(match only {
-            Some(only) => named_by_value(base, only),
-            None => base,
-        });
+        // Beside others of one scene it is told by its value.
+        let own = base.values.first().filter(|_| paths.len() == 1 && varied.len() == 1);
+        let own = own.and_then(Valued::text);
+        all.push(Named { name: own.unwrap_or_else(|| base.name.clone()), ..base });
         for variant in &arguments.variant {
             let name = match paths.len() {
                 1 => variant.text.clone(),
@@ -98,45 +99,6 @@ fn all_are_there(paths: &[PathBuf], terminal: Terminal) -> Result<(), CliError> 
     let Some(last) = unreadable.pop() else { return Ok(()) };
     unreadable.iter().for_each(|error| terminal.fail("", error));
     Err(last)
-}
-
-/// The one name that all variants set, where there is one.
-fn varied(variants: &[Variant]) -> Option<&str> {
-    let one = |own: &Variant| matches!(&own.set[..], [_]);
-    let first = variants.first().filter(|_| variants.iter().all(one))?;
-    let name = first.set[0].0.as_str();
-    variants.iter().all(|own| own.set[0].0 == name).then_some(name)
-}
-
-/// A scene as it is, named by the value of what its variants set, as `K=60 kN/m`.
-fn named_by_value(base: Named, name: &str) -> Named {
-    let varied = value_of(&base, name).map(|value| (name.to_owned(), value));
-    let named = varied.as_ref().map(|(name, value)| format!("{name}={value}"));
-    Named { name: named.unwrap_or(base.name), varied, ..base }
-}
-
-/// The value of this name in a scene, as it was set or stands there.
-fn value_of(named: &Named, name: &str) -> Option<String> {
-    let set = named.set.iter().rev().find(|own| own.0 == name).map(|own| own.1.clone());
-    let written = || {
-        let tunables = Tunables::of(&named.scene.text, named.scene.file.as_deref()).ok()?;
-        let at = tunables.anything(name).ok()?;
-        let path = &tunables.all()[at].path;
-        let scattered = named.scene.scatter.iter().find(|own| own.path == *path);
-        Some(scattered.map_or_else(|| tunables.shown(at), |own| own.text.clone()))
-    };
-    set.or_else(written)
-}
-
-/// The places of designs in the rising order of the one number in which they differ; `None` where they differ in more,
-/// or in words.
-fn ranks(designs: &[&Design]) -> Option<Vec<usize>> {
-    let varied = designs.iter().map(|own| own.varied.as_ref()).collect::<Option<Vec<_>>>()?;
-    let numbers = varied.iter().map(|own| parse_quantity(&own.1).ok());
-    let numbers = numbers.collect::<Option<Vec<_>>>()?;
-    let is_alike = numbers.iter().all(|own| own.dimension == numbers[0].dimension);
-    let rank = |own: f64| numbers.iter().filter(|other| other.value < own).count();
-    is_alike.then(|| numbers.iter().map(|own| rank(own.value)).collect())
 }
 
 /// The file with the curves of the design at this place, counted from 0: its number and its name, without what is no
@@ -162,9 +124,30 @@ fn named(paths: &[Option<&Path>]) -> Vec<String> {
 /// A design and what became of it.
 pub(super) struct Design {
     pub(super) name: String,
-    /// What alone varies between the designs of one scene, and its value.
-    pub(super) varied: Option<(String, String)>,
+    /// What the variants set, each with its value in this design.
+    pub(super) values: Vec<Valued>,
+    /// Its name above a column: the value alone where nothing else varies, and of several values one a line.
+    heading: String,
     pub(super) answer: Answer,
+}
+
+impl Design {
+    pub(super) fn new(name: String, values: Vec<Valued>, answer: Answer) -> Self {
+        let alone = match &values[..] {
+            [own] if own.text().as_ref() == Some(&name) => own.value.clone(),
+            _ => None,
+        };
+        let heading = alone.unwrap_or_else(|| name.replace(", ", ",\n"));
+        Self { name, values, heading, answer }
+    }
+
+    /// What alone sets it apart from the others, where its heading is but a value of it.
+    fn by(&self) -> Option<&str> {
+        match &self.values[..] {
+            [own] if own.value.as_ref() == Some(&self.heading) => Some(&own.name),
+            _ => None,
+        }
+    }
 }
 
 /// Designs side by side, each by its best run.
@@ -184,13 +167,14 @@ impl Designs {
     }
 
     fn side(&self) -> Side<'_> {
-        let columns = self.best().map(|(own, run)| Column { name: &own.name, run }).collect();
-        Side { columns, differences: None }
+        let columns = self.best().map(|(own, run)| Column { name: &own.heading, run }).collect();
+        let by: Option<Vec<&str>> = self.best().map(|(own, _)| own.by()).collect();
+        Side { columns, differences: None, by: by.and_then(|own| own.first().copied()) }
     }
 
     fn as_designs(&self, series: Vec<RunSeries>) -> Vec<RunSeries> {
         let designs: Vec<&Design> = self.best().map(|own| own.0).collect();
-        let ranks = ranks(&designs);
+        let ranks = order::ranks(&designs);
         let named = series.into_iter().zip(designs).enumerate().map(|(at, (own, design))| {
             let (name, rank) = (design.name.clone(), ranks.as_ref().map(|own| own[at]));
             design.answer.with_measured(RunSeries { name, is_design: true, rank, ..own })
@@ -263,14 +247,12 @@ impl Designs {
         };
         Table {
             caption: "Limits".to_owned(),
-            header: self.header("limit"),
+            header: {
+                let names = self.best().map(|(own, _)| own.heading.clone());
+                [self.side().heading("limit")].into_iter().chain(names).collect()
+            },
             rows: list(all.iter().map(row)),
         }
-    }
-
-    fn header(&self, first: &str) -> Vec<String> {
-        let names = self.best().map(|(own, _)| own.name.clone());
-        [first.to_owned()].into_iter().chain(names).collect()
     }
 
     /// What the scenes are: once what all are, else one by one.
@@ -342,11 +324,20 @@ impl Designs {
         self.of_each(|own| list(more(own).into_iter().chain(own.answer.new_warnings())))
     }
 
-    /// What is said of each design, behind its name.
+    /// What is said of each design, behind its name, or of all of them.
     fn of_each(&self, said: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
-        let of =
-            |own: &Design| list(said(own).into_iter().map(|text| format!("{}: {text}", own.name)));
-        self.designs.iter().flat_map(of).collect()
+        let all = list(self.designs.iter().map(|own| (own.name.as_str(), said(own))));
+        let is_of_all = |text: &String| all.iter().all(|own| own.1.contains(text));
+        let mut told: Vec<String> = Vec::new();
+        for (name, texts) in &all {
+            for text in texts {
+                let own = if is_of_all(text) { text.clone() } else { format!("{name}: {text}") };
+                if !told.contains(&own) {
+                    told.push(own);
+                }
+            }
+        }
+        told
     }
 }
 
@@ -362,8 +353,8 @@ impl Study for Designs {
         let limits = self.limits();
         for row in &limits.rows {
             text.labelled("limit", LABELS, &row[0]);
-            for (name, cell) in limits.header.iter().zip(row).skip(1) {
-                text.labelled("", LABELS, &format!("{name}: {cell}"));
+            for ((own, _), cell) in self.best().zip(&row[1..]) {
+                text.labelled("", LABELS, &format!("{}: {cell}", own.name));
             }
         }
         if text.is_plotted(self.plot) {
@@ -463,6 +454,10 @@ impl Study for Designs {
         };
         if has(Written::Page) {
             files.add(files::PAGE, page.html())?;
+        }
+        if has(Written::Events) {
+            let runs = self.best().map(|(own, run)| (own.name.as_str(), run));
+            files.add_with(files::EVENTS, |out| files::write_events("design", runs, out))?;
         }
         for (at, (own, run)) in self.best().enumerate().filter(|_| has(Written::Curves)) {
             let times = files::sample_times(run, &own.answer.scene.run);

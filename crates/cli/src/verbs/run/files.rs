@@ -28,7 +28,7 @@ use crate::{
 };
 
 /// What happened, in order of time.
-const EVENTS: &str = "events.csv";
+pub(super) const EVENTS: &str = "events.csv";
 /// The scene with what the command line changed.
 const SCENE: &str = "scene-as-run.toml";
 /// The drawing of the network.
@@ -78,7 +78,8 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
         write_figures(files, answer)?;
     }
     if has(Written::Events) {
-        files.add_with(EVENTS, |out| write_events(&answer.runs, out))?;
+        let runs = answer.runs.iter().map(|run| (run.solver.method, run));
+        files.add_with(EVENTS, |out| write_events("method", runs, out))?;
     }
     for run in answer.runs.iter().filter(|_| has(Written::Curves)) {
         let times = sample_times(run, &answer.scene.run);
@@ -149,14 +150,17 @@ pub(super) fn write_table(run: &RunReport, times: &[f64], out: &mut dyn Write) -
     csv(out, ["time [s]".to_owned()].into_iter().chain(header), rows)
 }
 
-/// Writes all events of the runs as CSV.
-fn write_events(runs: &[RunReport], out: &mut dyn Write) -> io::Result<()> {
-    let header = ["method", "time [s]", "error [s]", "event", "what"].map(str::to_owned);
-    let rows = runs.iter().flat_map(|run| {
-        let method = run.solver.method;
+/// Writes all events of runs as CSV, each behind what tells its run from others.
+pub(super) fn write_events<'r>(
+    which: &str,
+    runs: impl Iterator<Item = (&'r str, &'r RunReport)>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let header = [which, "time [s]", "error [s]", "event", "what"].map(str::to_owned);
+    let rows = runs.flat_map(|(name, run)| {
         let row = move |own: &EventReport| {
             let error = own.error.filter(|error| error.is_finite());
-            (method, own.time, error, own.what.code(), own.what.to_string())
+            (name, own.time, error, own.what.code(), own.what.to_string())
         };
         run.events.iter().map(row)
     });

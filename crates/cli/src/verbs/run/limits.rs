@@ -9,7 +9,7 @@ use super::{
     scatter,
     verdict::{Line, TIME_DIGITS},
 };
-use crate::numbers::{self, MOST_DIGITS, Unit, bound, percent_signed};
+use crate::numbers::{self, MOST_DIGITS, Unit, bound, counted, percent_signed};
 
 /// Digits of a value beside its limit.
 const DIGITS: usize = 4;
@@ -44,8 +44,9 @@ pub(super) fn short(run: &RunReport, judged: &Judged<'_>) -> String {
     let value = value.map_or(String::new(), |value| format!(", {value}"));
     let margin = judged.margin().map(|margin| format!(", margin {}", percent_signed(margin)));
     let chance = scatter::chance(judged).map_or(String::new(), |own| format!(", {own}"));
-    let beyond = beyond(run, judged).map_or(String::new(), |own| format!(", {own}"));
-    word.to_owned() + &value + &margin.unwrap_or_default() + &beyond + &chance
+    let doubt = beyond(run, judged).or_else(|| outside(run, judged));
+    let doubt = doubt.map_or(String::new(), |own| format!(", {own}"));
+    word.to_owned() + &value + &margin.unwrap_or_default() + &doubt + &chance
 }
 
 fn text(run: &RunReport, judged: &Judged<'_>) -> String {
@@ -77,7 +78,9 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     // Of a sample it is single designs that are.
     let Some(warning) = run.beyond_known().next().filter(|_| judged.sampled.is_none()) else {
         let designs = judged.chance.map_or(0, |own| own.beyond);
-        return Some(format!("{designs} designs of the sample are pressed beyond what is known"));
+        let are = if designs == 1 { "is" } else { "are" };
+        let designs = counted(designs, "design");
+        return Some(format!("{designs} of the sample {are} pressed beyond what is known"));
     };
     let what = match warning {
         Warning::BeyondLaw(own) => format!(
@@ -98,8 +101,9 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     }
     if judged.sampled.is_some() {
         let designs = judged.chance.map_or(0, |own| own.outside);
+        let designs = counted(designs, "design");
         return Some(format!(
-            "in {designs} designs of the sample there is a harder blow outside of the impact"
+            "in {designs} of the sample there is a harder blow outside of the impact"
         ));
     }
     let harder = run.warnings.iter().find_map(|own| match own {
@@ -109,10 +113,19 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     let measure = judged.measure?;
     let level = unit(measure.kind, measure.unit, judged.limit).text(harder.outside, DIGITS);
     let time = numbers::quantity(harder.time, "s", TIME_DIGITS);
-    Some(format!(
-        "it passes in the impact, but outside of it there are {level} at {time}: `window = \"run\"` counts them, \
-         a window of two times need not"
-    ))
+    let pulls = run.warnings.iter().find_map(|own| match own {
+        Warning::Pulls { element, since } if since.is_none_or(|since| since <= harder.time) => {
+            Some(element)
+        }
+        _ => None,
+    });
+    let way = match pulls {
+        Some(element) => format!(
+            "the {element} pulls before, and lets go with `separation.{element} = {{}}` under [effects]"
+        ),
+        None => "`window = \"run\"` counts them, a window of two times need not".to_owned(),
+    };
+    Some(format!("it passes in the impact, but outside of it there are {level} at {time}: {way}"))
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.

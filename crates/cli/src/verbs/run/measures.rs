@@ -28,9 +28,16 @@ pub(super) struct Side<'r> {
     pub(super) columns: Vec<Column<'r>>,
     /// How far apart runs of one scene are; `None` where they are designs, which are to differ.
     pub(super) differences: Option<Vec<Difference>>,
+    /// Of what the names are values, where that is one number or word of the scene.
+    pub(super) by: Option<&'r str>,
 }
 
 impl<'r> Side<'r> {
+    /// A heading of the first column, with what the names beside it are values of.
+    pub(super) fn heading(&self, words: &str) -> String {
+        self.by.map_or_else(|| words.to_owned(), |by| format!("{words}, by {by}"))
+    }
+
     fn runs(&self) -> impl Iterator<Item = &'r RunReport> {
         self.columns.iter().map(|column| column.run)
     }
@@ -93,7 +100,7 @@ pub(super) fn measures_tables(side: &Side<'_>, limit: usize) -> Vec<Table> {
 }
 
 fn build(side: &Side<'_>, block: &Block<'_>) -> Table {
-    let mut header = vec!["measure".to_owned()];
+    let mut header = vec![side.heading("measure")];
     for run in block.runs {
         header.push(run.name.to_owned());
         if block.errors {

@@ -9,6 +9,7 @@ mod files;
 mod limits;
 mod measures;
 mod object;
+mod order;
 mod resolved_scene;
 mod scatter;
 pub(super) mod series;
@@ -211,7 +212,7 @@ impl Answer {
     /// Its runs side by side.
     fn side(&self) -> Side<'_> {
         let columns = self.runs.iter().map(|run| Column { name: run.solver.method, run });
-        Side { columns: columns.collect(), differences: Some(self.differences()) }
+        Side { columns: columns.collect(), differences: Some(self.differences()), by: None }
     }
 
     /// All warnings, the most important first; those that not every run gives name their methods.
@@ -272,7 +273,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let mut answers = Vec::new();
     let (mut noted, mut warned) = (Vec::new(), Vec::new());
-    for Named { name, scene, varied, set } in scenes {
+    for Named { name, scene, values, set } in scenes {
         let new = scene.notes.iter().filter(|own| !noted.contains(*own)).cloned();
         let new: Vec<ModelNote> = new.collect();
         print_notes(&new);
@@ -286,7 +287,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         curves::reached(&arguments.at, scene.run.duration)?;
         let answer = solve_all(scene, (arguments, &set), terminal)?;
         print_failures(&answer, terminal);
-        answers.push(Design { name, varied, answer });
+        answers.push(Design::new(name, values, answer));
     }
     let failed = answers.iter().flat_map(|own| &own.answer.failed);
     let status = failed.map(|(_, error)| error.status()).max();
@@ -407,7 +408,7 @@ impl Study for Answer {
         for table in measures_tables(&self.side(), WIDTH - 2) {
             text.figures(&table);
         }
-        self.best().and_then(scatter::table).iter().for_each(|table| text.figures(table));
+        self.best().and_then(scatter::table).iter().for_each(|table| text.rows_below(table));
         deviations::show(&self.by_curve(), text);
         notes(self).iter().for_each(|note| text.labelled("", 0, note));
         self.values_at().iter().for_each(|table| text.rows_below(table));

@@ -213,7 +213,7 @@ fn in_percent(share: f64) -> String {
 /// The bands of all measures; nothing where there is no scatter.
 pub(super) fn table(run: &RunReport) -> Option<Table> {
     let own = run.scatter.as_ref()?;
-    let header = ["measure", "mean", "std. deviation", "2.5 %", "97.5 %", "unit"];
+    let header = ["measure", "mean", "standard\ndeviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));
     let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
     let rows = bands.map(|band| row(run, band, &zeros));
@@ -250,8 +250,8 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
         [first.key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
     };
     let names = side.columns.iter().map(|own| own.name.to_owned());
-    let header =
-        ["95 % of its sample".to_owned()].into_iter().chain(names).chain(["unit".to_owned()]);
+    let first = side.heading("95 % of its sample");
+    let header = [first].into_iter().chain(names).chain(["unit".to_owned()]);
     let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
     (!rows.is_empty()).then(|| Table {
         caption: "Scatter".to_owned(),

@@ -10,7 +10,7 @@ use dashpot_scene::{
 
 use super::Answer;
 use crate::{
-    numbers::{constant, duration, share, tolerance},
+    numbers::{constant, counted, duration, share, tolerance},
     origin,
 };
 
@@ -68,7 +68,7 @@ fn size(run: &RunReport) -> String {
     let system = &run.system;
     let algebraic = match system.algebraic {
         0 => String::new(),
-        count => format!(", {count} algebraic unknowns"),
+        count => format!(", {}", counted(count, "algebraic unknown")),
     };
     let effects = match system.effects.as_slice() {
         [] => "every effect is off".to_owned(),

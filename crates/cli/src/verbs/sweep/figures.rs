@@ -1,7 +1,9 @@
 //! What `sweep` draws: lines over one parameter, and maps over two.
 
-use dashpot_analysis::{Bound, Limit, sweep::SweepReport};
-use dashpot_plot::{Chart, Direction, Map, MapLimit, ReferenceLine, Scale, Series, Side};
+use dashpot_analysis::{Bound, Judgement, Limit, Reason, sweep::SweepReport};
+use dashpot_plot::{
+    Chart, Direction, Map, MapLimit, Pattern, ReferenceLine, Scale, Series, Side, Stroke,
+};
 use dashpot_scene::Variation;
 
 use super::{
@@ -17,6 +19,11 @@ const MOST_FAMILY: usize = 12;
 const MOST_LINES: usize = 7;
 /// A map has at least so many rows and columns.
 const LEAST_OF_MAP: usize = 4;
+/// Values of a map that rise by this factor have colours by their ratios: what keeps a limit lies among the lowest, which
+/// colours by differences would not tell apart.
+const RATIO_OF_MAP: f64 = 4.0;
+/// What is to be said of a curve where it does not decide.
+const UNDECIDED: &str = "dotted: undecided";
 /// What is to be said of a padding that is as deep as it is thick.
 const PRESSED: &str = "ξmax = 1";
 /// Ratios of neighbours are equal within this part of them.
@@ -120,12 +127,20 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
         None => String::new(),
     };
     let [along, across] = if over == 0 { [count, 1] } else { [1, x.len()] };
-    let line = |at: usize| {
-        let value = |place: usize| values[place * along + at * across];
-        let points = x.iter().enumerate().map(|(place, x)| (*x, value(place)));
-        Series::new(name_of(at), points.collect())
+    let open = undecided(report, column);
+    let line = |(number, at): (usize, usize)| {
+        let point = |place: usize| place * along + at * across;
+        let places = x.iter().enumerate().map(|(place, x)| (*x, values[point(place)]));
+        let open: Vec<bool> = (0..x.len()).map(|place| open[point(place)]).collect();
+        parted(name_of(at), &places.collect::<Vec<_>>(), &open, number)
     };
     let drawn = drawn(count, is_of_words);
+    let parts: Vec<[Series; 2]> = drawn.iter().copied().enumerate().map(line).collect();
+    let is_open = parts.iter().any(|own| !own[1].points.is_empty());
+    let remark = title(&swept.scene).to_owned();
+    let note = if is_open { format!("{remark}; {UNDECIDED}") } else { remark };
+    let series: Vec<Series> =
+        parts.into_iter().flatten().filter(|own| !own.points.is_empty()).collect();
     let own = quantity(&report.columns[column]);
     let for_each = family.map_or_else(String::new, |family| match drawn.len() {
         all if all == count => format!(", for each {}", parameter(&family.name)),
@@ -141,16 +156,58 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
         .map(|limit| line_at(unit.of(limit.bound.level()), words::limit(report, column, limit)));
     Chart {
         title: heading,
-        note: title(&swept.scene).to_owned(),
+        note,
         x_label,
         x_scale,
         y_label: label(&own, &unit),
         y_scale: Scale::suiting(values.iter().copied()),
-        family: if family.is_some() && !is_of_words { drawn.len() } else { 0 },
-        series: drawn.into_iter().map(line).collect(),
+        family: if family.is_some() && !is_of_words { series.len() } else { 0 },
+        series,
         lines: pressed.into_iter().chain(limits).collect(),
         ..Chart::default()
     }
+}
+
+/// At which points a limit on a column is undecided.
+fn undecided(report: &SweepReport, column: usize) -> Vec<bool> {
+    let mut all = vec![false; report.points()];
+    for at in (0..report.limits.len()).filter(|at| report.limits[*at].0 == column) {
+        for (own, judged) in all.iter_mut().zip(report.judged(at)) {
+            *own |= judged.and_then(Judgement::reason).is_some();
+        }
+    }
+    all
+}
+
+/// A line of this number in its parts: plain between points that decide, dotted to those that are `open`. The part that
+/// reaches the last point has the name.
+fn parted(name: String, points: &[(f64, f64)], open: &[bool], number: usize) -> [Series; 2] {
+    let gap = |at: usize| (points[at].0, f64::NAN);
+    let (mut plain, mut dotted) = (Vec::new(), Vec::new());
+    for (at, point) in points.iter().enumerate() {
+        plain.push(if open[at] { gap(at) } else { *point });
+        let is_open = at > 0 && (open[at - 1] || open[at]);
+        if is_open {
+            dotted.extend([gap(at - 1), points[at - 1], *point]);
+        }
+    }
+    if open.iter().all(|own| *own) {
+        plain.clear();
+    }
+    let is_last_open = open.last().is_some_and(|own| *own);
+    let names = if is_last_open { [String::new(), name] } else { [name, String::new()] };
+    let patterns = [Pattern::Solid, Pattern::Dotted];
+    let mut parts = names.into_iter().zip(patterns).zip([plain, dotted]);
+    std::array::from_fn(|_| {
+        parts.next().map_or_else(
+            || Series::new("", Vec::new()),
+            |((name, pattern), points)| Series {
+                name,
+                points,
+                stroke: Some(Stroke { colour: number, pattern }),
+            },
+        )
+    })
 }
 
 /// A column over both parameters, with the lines of limits and that on which a padding is pressed to nothing.
@@ -158,10 +215,7 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
     let report = &swept.report;
     let (x_label, x_scale, x) = axis(swept, 0);
     let (y_label, y_scale, y) = axis(swept, 1);
-    let turned = |values: Vec<f64>| -> Vec<f64> {
-        let place = |at: usize| (at % x.len()) * y.len() + at / x.len();
-        (0..values.len()).map(|at| values[place(at)]).collect()
-    };
+    let count = [x.len(), y.len()];
     let own = &report.columns[column];
     let element = own.key.rsplit_once('.').map(|key| key.0);
     let pressed = report.columns.iter().enumerate().filter(|(_, other)| {
@@ -169,13 +223,16 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
         other.is_share && (other_element == element || shares(report) == 1)
     });
     let pressed = pressed.map(|(at, _)| MapLimit {
-        values: turned(report.column(at).collect()),
+        values: turned(count, &report.column(at).collect::<Vec<_>>()),
         at: 1.0,
         label: PRESSED.to_owned(),
         kept: Side::Below,
+        ..MapLimit::default()
     });
-    let bounds = report.limits.iter().map(|(of, limit)| MapLimit {
-        values: turned(report.column(*of).collect()),
+    let bounds = report.limits.iter().enumerate().map(|(at, (of, limit))| MapLimit {
+        values: turned(count, &decided(report, *of)),
+        errors: turned(count, &known(report, *of)),
+        doubted: turned(count, &doubted(report, at)),
         at: limit.bound.level(),
         label: if *of == column {
             words::limit(report, *of, limit)
@@ -189,7 +246,8 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
     });
     let limits = pressed.chain(bounds).collect();
     let unit = unit(report, column);
-    let values = turned(report.column(column).map(|own| unit.of(own)).collect());
+    let values: Vec<f64> = report.column(column).map(|own| unit.of(own)).collect();
+    let values = turned(count, &values);
     let shown = limits_of(report, column).map(|own| unit.of(own.bound.level()));
     let shown = shown.chain(own.is_share.then_some(1.0)).collect();
     let names: Vec<&str> = swept.varied.variations.iter().map(|own| own.name.as_str()).collect();
@@ -202,13 +260,47 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
         x_scale,
         y_scale,
         value_label: label(&quantity, &unit),
-        value_scale: Scale::suiting(values.iter().copied()),
+        value_scale: Scale::of_ratios_from(RATIO_OF_MAP, values.iter().copied()),
         shown,
         values,
         limits,
         x,
         y,
     }
+}
+
+/// Values of points as a map has them: rows of the first parameter, one above the other.
+fn turned<T: Copy>([columns, rows]: [usize; 2], values: &[T]) -> Vec<T> {
+    let place = |at: usize| (at % columns) * rows + at / columns;
+    (0..values.len()).map(|at| values[place(at)]).collect()
+}
+
+/// The errors of a column; zero where they are not known.
+fn known(report: &SweepReport, column: usize) -> Vec<f64> {
+    report.errors_of(column).map(|own| if own.is_finite() { own } else { 0.0 }).collect()
+}
+
+/// The values of a column; none where errors were estimated and this one is not known.
+fn decided(report: &SweepReport, column: usize) -> Vec<f64> {
+    let are_estimated = report.errors.iter().any(|own| !own.is_nan());
+    let both = report.column(column).zip(report.errors_of(column));
+    let is_told = |error: f64| !are_estimated || error.is_finite();
+    both.map(|(own, error)| if is_told(error) { own } else { f64::NAN }).collect()
+}
+
+/// Where the limit at this place is undecided for another reason than that its error reaches across, or would be if it
+/// were kept.
+fn doubted(report: &SweepReport, limit: usize) -> Vec<bool> {
+    let (column, ref own) = report.limits[limit];
+    let judged = report.judged(limit).into_iter().zip(report.doubts(own));
+    let values = decided(report, column);
+    let is_open = |judged: Option<Judgement>, doubt: Option<Reason>, value: f64| match judged {
+        Some(Judgement::Undecided(Reason::Error)) => value.is_nan(),
+        Some(Judgement::Undecided(_)) => true,
+        Some(_) => doubt.is_some(),
+        None => false,
+    };
+    judged.zip(values).map(|((judged, doubt), value)| is_open(judged, doubt, value)).collect()
 }
 
 /// The limits on the measure of a column.
@@ -236,6 +328,26 @@ mod tests {
         ] {
             assert_eq!(are_of_ratios(values), right, "{values:?}");
         }
+    }
+
+    #[test]
+    fn a_line_is_dotted_to_points_that_decide_nothing() {
+        let points = [(0.0, 0.0), (1.0, 1.0), (2.0, 4.0), (3.0, 9.0)];
+        let parts = |open: [bool; 4]| {
+            let parts = parted("K".to_owned(), &points, &open, 2);
+            assert!(parts.iter().all(|own| own.stroke.is_some_and(|own| own.colour == 2)));
+            let finite = |own: &Series| -> Vec<f64> {
+                own.points.iter().filter(|own| own.1.is_finite()).map(|own| own.0).collect()
+            };
+            (finite(&parts[0]), finite(&parts[1]), parts.map(|own| own.name))
+        };
+        let (plain, dotted, names) = parts([false; 4]);
+        assert_eq!((plain.len(), dotted.len(), names[0].as_str()), (4, 0, "K"));
+        let (plain, dotted, names) = parts([false, false, true, true]);
+        assert_eq!((plain, dotted), (vec![0.0, 1.0], vec![1.0, 2.0, 2.0, 3.0]));
+        assert_eq!(names, ["", "K"]);
+        let (plain, dotted, _) = parts([true; 4]);
+        assert_eq!((plain.len(), dotted.len()), (0, 6));
     }
 
     #[test]

@@ -35,6 +35,7 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
+    numbers::counted,
     operand::print_notes,
     origin::{self, Source},
     output::{Pairs, Study, Text, VERSION, emit, list, object},
@@ -268,11 +269,13 @@ impl Study for Swept {
         text.items(page::verdict(self, &best::best(self)));
         let (table, more) = points::table(self);
         if !table.rows.is_empty() {
-            text.rows_below(&table);
+            text.blank();
+            text.rows_led(&table, self.varied.variations.len());
         }
         if more > 0 && !table.rows.is_empty() {
             text.faint(&format!(
-                "and {more} more designs: all are in the CSV, in a pipe or by `--out`"
+                "and {}: all are in the CSV, in a pipe or by `--out`",
+                counted(more, "more design")
             ));
         }
         let is_sample = matches!(self.varied.form, Form::Sampled);

@@ -11,7 +11,7 @@ use super::{
     titles::{capital, quantity},
     words,
 };
-use crate::{input::title, origin, output::list, said, sketch};
+use crate::{input::title, numbers::counted, origin, output::list, said, sketch};
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
@@ -44,8 +44,8 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
 /// How many points there are, how many keep the limits, and the best of them.
 pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String> {
     let count = swept.report.points();
-    let what = if swept.varied.is_of_rows() { "designs" } else { "points" };
-    let mut lines = vec![format!("{count} {what} solved")];
+    let what = if swept.varied.is_of_rows() { "design" } else { "point" };
+    let mut lines = vec![format!("{} solved", counted(count, what))];
     lines.extend(words::kept(swept));
     if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
         let word = if first.passes { "best" } else { "nearest to passing" };

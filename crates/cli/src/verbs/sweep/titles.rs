@@ -2,6 +2,8 @@
 
 use dashpot_analysis::sweep::Column;
 
+pub(super) use crate::text::capital;
+
 /// Tables of a scene, whose names lead to what stands in them and say nothing of it.
 const TABLES: [&str; 10] = [
     "nodes",
@@ -62,12 +64,6 @@ pub(super) fn parameters(paths: &[&str]) -> String {
 
 fn spaced(word: &str) -> String {
     word.replace('-', " ")
-}
-
-/// A text with a capital first letter.
-pub(super) fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use dashpot_scene::{Remark, Variation, units::si_unit};
 
 use super::{Form, SweepArguments, Swept, Varied};
 use crate::{
-    numbers::{self, Unit, apart, bound, duration, estimate, significant},
+    numbers::{self, Unit, apart, bound, counted, duration, estimate, significant},
     output::list,
     verbs::run::{level, unit_of_kind},
 };
@@ -327,21 +327,17 @@ fn means(swept: &Swept) -> impl Iterator<Item = String> {
     held.map(|own| format!("{}: {}", own.name, Remark::Mean(own.text.clone())))
 }
 
-fn counted(points: usize) -> String {
-    if points == 1 { "1 point".to_owned() } else { format!("{points} points") }
-}
-
 fn solved(report: &SweepReport, points: usize) -> String {
     match (report.instantiated, points - report.instantiated) {
         (0, 1) => "1 point, solved in full".to_owned(),
         (0, full) => format!("{full} points, each solved in full"),
         (instantiated, 0) => {
-            format!("{}, instantiated from one compiled form", counted(instantiated))
+            format!("{}, instantiated from one compiled form", counted(instantiated, "point"))
         }
         (instantiated, full) => {
             format!(
                 "{} instantiated from one compiled form, {full} solved in full",
-                counted(instantiated)
+                counted(instantiated, "point")
             )
         }
     }
@@ -353,7 +349,9 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     let known = &swept.scene.assembly.warnings;
     let sentence = |(at, own): (usize, &SweepWarning)| {
         let first = own.points.first().map_or(String::new(), |point| swept.at(*point));
-        let of = if own.points.len() == points {
+        let of = if points == 1 {
+            "at the only point".to_owned()
+        } else if own.points.len() == points {
             format!("at all {points} points")
         } else {
             format!("at {} of {points} points", own.points.len())
@@ -394,7 +392,7 @@ fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<Stri
         )
     };
     let names = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
-    let checked = counted(partial_of_sweep.checked.len());
+    let checked = counted(partial_of_sweep.checked.len(), "point");
     let mut all = vec![format!(
         "left out everywhere: {names}{most}; solved with and without it at {checked}{saving}"
     )];
@@ -416,8 +414,8 @@ fn missing(swept: &Swept) -> Vec<String> {
     }
     let sentence = |(first, count): &(&Gap, usize)| {
         let have = if *count == 1 { "has" } else { "have" };
-        let (counted, first_at) = (counted(*count), swept.at(first.point));
-        format!("{counted} {have} no solution, first at {first_at}: {}", first.reason)
+        let (points, first_at) = (counted(*count, "point"), swept.at(first.point));
+        format!("{points} {have} no solution, first at {first_at}: {}", first.reason)
     };
     let mut all: Vec<String> = failed.iter().take(MOST_FAULTS).map(sentence).collect();
     if let Some(more @ 1..) = failed.len().checked_sub(MOST_FAULTS) {

@@ -55,11 +55,13 @@ impl LoopSeries {
         let pattern = |at: usize| PATTERNS[at / COLOURS % PATTERNS.len()];
         let loops = self.loops.iter().enumerate();
         let mut series: Vec<Series> = loops.map(|(at, own)| one(own, at, pattern(at))).collect();
-        series.extend(self.measured.iter().map(|own| one(own, self.loops.len(), Pattern::Dotted)));
+        series
+            .extend(self.measured.iter().map(|own| one(own, self.loops.len(), Pattern::Measured)));
         Chart {
             title: self.title.clone(),
             x_label: x.label(words.0),
             y_label: y.label(words.1),
+            family: if self.loops.len() > 1 { self.loops.len() } else { 0 },
             series,
             has_arrows: true,
             ..Chart::default()
@@ -90,6 +92,6 @@ mod tests {
         );
         assert_eq!(chart.series[1].points, [(0.0, 0.0), (10.0, 2.0), (2.0, 0.0)]);
         assert_ne!(chart.series[0].stroke, chart.series[1].stroke);
-        assert_eq!(chart.series[2].stroke.map(|own| own.pattern), Some(Pattern::Dotted));
+        assert_eq!(chart.series[2].stroke.map(|own| own.pattern), Some(Pattern::Measured));
     }
 }

@@ -1,7 +1,7 @@
 //! What a model answers to a protocol of a rheometer, over time.
 
 use crate::figures::unit::{self, Unit};
-use crate::{Chart, Direction, Pattern, ReferenceLine, Series, Stroke};
+use crate::{Chart, Direction, Pattern, ReferenceLine, Scale, Series, Stroke};
 
 /// The answer to one protocol: from the model's formulas and from a simulation of its network, in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,16 +43,22 @@ pub struct RheometerLine {
 }
 
 impl RheometerSeries {
-    /// The chart: the model broad and pale, the simulation dashed on top of it.
+    /// The chart: the model broad and pale, the simulation dashed on top of it. Times that stand at equal ratios over
+    /// decades are laid out so, and with them values that span decades.
     pub fn chart(&self) -> Chart {
         let points = || self.model.iter().chain(&self.simulated);
-        let x = Unit::of(&unit::TIME, points().map(|p| p.0));
         let values = || points().map(|p| p.1);
-        let (quantity, y) = match self.measured {
-            Measured::Force => ("force", Unit::of(&unit::FORCE, values())),
-            Measured::Deformation => ("deformation", Unit::of(&unit::LENGTH, values())),
-            Measured::Stress => ("stress", Unit::of(&unit::STRESS, values())),
-            Measured::Strain => ("strain", Unit::of(&unit::STRAIN, values())),
+        let is_logarithmic = are_of_decades(&self.model) || are_of_decades(&self.simulated);
+        let positive = values().filter(|own| *own != 0.0);
+        let y_scale = if is_logarithmic { Scale::suiting(positive) } else { Scale::Linear };
+        let x = Axis::of("time", "s", &unit::TIME, points().map(|p| p.0), is_logarithmic);
+        let is_logarithmic = y_scale != Scale::Linear;
+        let of = |word, si, units| Axis::of(word, si, units, values(), is_logarithmic);
+        let y = match self.measured {
+            Measured::Force => of("force", "N", &unit::FORCE),
+            Measured::Deformation => of("deformation", "m", &unit::LENGTH),
+            Measured::Stress => of("stress", "Pa", &unit::STRESS),
+            Measured::Strain => of("strain", "", &unit::STRAIN),
         };
         let alone = self.simulated.is_empty();
         let first = if alone { Pattern::Solid } else { Pattern::Broad };
@@ -78,13 +84,48 @@ impl RheometerSeries {
         let instants = self.instants.iter().map(line(Direction::Vertical, x.factor));
         Chart {
             title: self.title.clone(),
-            x_label: x.label("time"),
-            y_label: y.label(quantity),
+            x_label: x.label,
+            y_label: y.label,
+            x_scale: x.scale,
+            y_scale: y.scale,
             series: series.collect(),
             lines: levels.chain(instants).collect(),
             ..Chart::default()
         }
     }
+}
+
+/// How one axis is laid out.
+struct Axis {
+    label: String,
+    scale: Scale,
+    /// SI units in one of the axis.
+    factor: f64,
+}
+
+impl Axis {
+    /// An axis in one of `units`, or a logarithmic one in the SI unit.
+    fn of(
+        word: &str,
+        si: &str,
+        units: &'static [Unit],
+        values: impl Iterator<Item = f64>,
+        is_logarithmic: bool,
+    ) -> Self {
+        if is_logarithmic {
+            return Self { label: word.into(), scale: Scale::logarithmic(si), factor: 1.0 };
+        }
+        let unit = Unit::of(units, values);
+        Self { label: unit.label(word), scale: Scale::Linear, factor: unit.factor }
+    }
+}
+
+/// Whether times after zero span two decades, most of them in the first tenth.
+fn are_of_decades(points: &[(f64, f64)]) -> bool {
+    let times: Vec<f64> = points.iter().map(|own| own.0).filter(|own| *own > 0.0).collect();
+    let (Some(first), Some(last)) = (times.first(), times.last()) else { return false };
+    let early = times.iter().filter(|own| **own < 0.1 * last).count();
+    *last >= 100.0 * first && 2 * early > times.len()
 }
 
 #[cfg(test)]
@@ -108,5 +149,31 @@ mod tests {
         assert_eq!(chart.series[0].points, [(0.0, 0.0), (100.0, 5.0)]);
         assert_eq!((chart.lines[0].at, chart.lines[0].direction), (2.0, Direction::Horizontal));
         assert_eq!((chart.lines[1].at, chart.lines[1].direction), (50.0, Direction::Vertical));
+    }
+
+    #[test]
+    fn times_over_decades_are_laid_out_by_their_ratios_and_even_ones_by_differences() {
+        let chart = |time: &dyn Fn(i32) -> f64, decay: f64| {
+            let series = RheometerSeries {
+                title: "Relaxation".into(),
+                measured: Measured::Force,
+                model: (0..=60).map(|at| (time(at), 1e3 * (-decay * time(at)).exp())).collect(),
+                simulated: Vec::new(),
+                levels: Vec::new(),
+                instants: Vec::new(),
+            };
+            series.chart()
+        };
+        let ratios = |at: i32| 1e-4 * 10_f64.powf(f64::from(at) / 12.0);
+        let slow = chart(&ratios, 0.1);
+        assert_eq!((slow.x_scale, slow.y_scale), (Scale::logarithmic("s"), Scale::Linear));
+        assert_eq!((slow.x_label.as_str(), slow.y_label.as_str()), ("time", "force (kN)"));
+        assert!((slow.series[0].points[0].0 / 1e-4 - 1.0).abs() < 1e-12);
+        let quick = chart(&ratios, 1.0);
+        assert_eq!(quick.y_scale, Scale::logarithmic("N"));
+        let last = quick.series[0].points[60].1;
+        assert!((last / (1e3 * (-10.0_f64).exp()) - 1.0).abs() < 1e-9, "{last}");
+        let even = chart(&|at| f64::from(at), 1.0);
+        assert_eq!((even.x_scale, even.y_scale), (Scale::Linear, Scale::Linear));
     }
 }
