@@ -50,6 +50,7 @@ mod properties;
 mod random_networks;
 mod scatter;
 mod scenes;
+mod signal;
 mod signs;
 mod similarity;
 mod sizes;

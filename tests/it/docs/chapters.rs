@@ -3,7 +3,7 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 14] = [
+const CHAPTERS: [(&str, usize, usize); 15] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
@@ -12,6 +12,7 @@ const CHAPTERS: [(&str, usize, usize); 14] = [
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
+    ("signal", 0, 0),
     ("jobs/protector", 2, 0),
     ("jobs/parcel", 2, 2),
     ("jobs/liners", 4, 2),
