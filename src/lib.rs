@@ -40,6 +40,7 @@ pub use dashpot_numerics as numerics;
 pub use dashpot_plot as plot;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
+pub use dashpot_signal as signal;
 pub use dashpot_thesis as thesis;
 pub use dashpot_units as units;
 

@@ -51,6 +51,7 @@ mod properties;
 mod random_networks;
 mod scatter;
 mod scenes;
+mod signal;
 mod signs;
 mod similarity;
 mod sizes;

@@ -11,6 +11,7 @@ use dashpot_analysis::{Accuracy, Limit};
 use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{parse_limits, units::parse_quantity};
+use dashpot_signal::Cfc;
 
 use crate::error::{CliError, is_unit, unquoted_help};
 
@@ -158,6 +159,15 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     } else {
         "it must be more than 0 and at most 20%, such as 0.1% or 1e-3".to_owned()
     })
+}
+
+/// A channel frequency class, such as 180 or "CFC180".
+pub(crate) fn frequency_class(text: &str) -> Result<Cfc, String> {
+    let text = text.trim();
+    let number = text.strip_prefix("CFC").or(text.strip_prefix("cfc")).unwrap_or(text).trim();
+    let class =
+        number.parse().map_err(|_| format!("`{text}` is no class: write 60, 180, 600 or 1000"))?;
+    Cfc::new(class).map_err(|error| error.to_string())
 }
 
 /// A time \[s\] within a run.

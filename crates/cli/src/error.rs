@@ -18,6 +18,7 @@ use dashpot_scene::{
     Diagnostics, ListedFault, TableError, TunableFault, Unwritable, VariationFault, suggestion,
     units::parse_dimension,
 };
+use dashpot_signal::{CfcFault, ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
@@ -138,6 +139,18 @@ pub(crate) enum CliError {
     /// Something that nothing can be fitted to.
     #[error("`--to {text}`: {reason}")]
     Fit { text: String, reason: String },
+    /// A file with channels that cannot be read, or of which it is not clear what they are.
+    #[error("`{file}`: {reason}")]
+    SignalFile { file: String, reason: String },
+    /// Samples that are no signal.
+    #[error("`{file}`{}, channel `{channel}`: {fault}", .line.map_or_else(String::new, |own| format!(", line {own}")))]
+    SignalSamples { file: String, line: Option<usize>, channel: String, fault: Box<ChannelFault> },
+    /// A channel that cannot be read as it is asked for.
+    #[error("`{file}`, channel `{channel}`: {fault}")]
+    Signal { file: String, channel: String, fault: Box<SettingsFault> },
+    /// A limit on what no channel has.
+    #[error("no channel has the measure `{key}`")]
+    SignalLimit { key: String, known: Vec<String>, meant: Option<String> },
     /// An output that a scene does not have, or that cannot be measured.
     #[error("`{flag} {file}`: there is no `{name}` over time to stand beside")]
     NotMeasurable { flag: &'static str, file: String, name: String, known: Vec<String> },
@@ -260,6 +273,12 @@ impl CliError {
             Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
+            Self::SignalSamples { fault, .. } => sample_help(fault),
+            Self::Signal { fault, .. } => signal_help(fault),
+            Self::SignalLimit { known, meant, .. } => Some(match meant {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => format!("there are {}", known.join(", ")),
+            }),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable { fault, .. } | Self::Gradient(fault) => fault.help(),
@@ -313,6 +332,39 @@ impl CliError {
             _ => None,
         }
     }
+}
+
+/// What to do about samples that are no signal.
+fn sample_help(fault: &ChannelFault) -> Option<String> {
+    let help = match fault {
+        ChannelFault::TimeBack { .. } => {
+            "sort the rows by time, and leave one of two rows of the same time; a file of several tests is to be cut \
+             into one for each"
+        }
+        ChannelFault::TooFew { .. } => "look whether the right file was exported, and whole",
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// What to do about a channel that cannot be read as it is asked for.
+fn signal_help(fault: &SettingsFault) -> Option<String> {
+    let help = match fault {
+        SettingsFault::NoRest => {
+            "give what the channel reads at rest, `--offset \"0.3 g\"`, or record from some ms before the pulse on"
+        }
+        SettingsFault::UnevenSteps { .. } => {
+            "`--rate \"20 kHz\"` reads the line between its samples at even steps"
+        }
+        SettingsFault::Cfc(CfcFault::TooSlow { .. }) => {
+            "SAE J211 wants a sampling rate of ten times the class: take a lower class, or record faster"
+        }
+        SettingsFault::NothingLeft(_) => {
+            "look at the times of the record: without `--from`, `--to` and `--rate` they are printed"
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
 }
 
 /// What to do about a scene that cannot be shaken.

@@ -13,6 +13,7 @@ const CHAPTERS: [(&str, usize, usize); 15] = [
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
+    ("signal", 0, 0),
     ("jobs/protector", 2, 0),
     ("jobs/parcel", 2, 2),
     ("jobs/liners", 4, 2),

@@ -40,7 +40,7 @@ pub use dashpot_units::STANDARD_GRAVITY;
 pub use self::{
     contact::{CoefficientOfRestitution, ContactTime},
     energy::{Energy, EnergyAtEnd},
-    exceedance::{Clip, Clip3ms},
+    exceedance::{Clip, Clip3ms, Exceedance, Level},
     injury::{Hic, Hic15, Hic36, SeverityIndex},
     integrals::{AverageDeceleration, Impulse},
     peaks::{

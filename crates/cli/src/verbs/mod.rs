@@ -12,6 +12,7 @@ mod list;
 mod printed;
 mod rheometer;
 pub(crate) mod run;
+mod signal;
 mod sweep;
 mod thesis;
 mod vibrate;
@@ -40,7 +41,7 @@ use crate::{
         dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
         Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
         3 `compare` says that two models are not the same, `groups` that two scenes\n\
-        are not similar, 4 `run --enforce`: a limit is not kept, or not for certain."
+        are not similar, 4 `--enforce`: a limit is not kept, or not for certain."
 )]
 pub(crate) struct Arguments {
     /// What to do.
@@ -68,6 +69,8 @@ pub(crate) enum Command {
     Rheometer(rheometer::RheometerArguments),
     /// Shows what accuracy costs: true errors of every method against time and work.
     Cost(cost::CostArguments),
+    /// Reads measured channels: offset, CFC filter, peak, HIC, clips, with the errors of sampling.
+    Signal(signal::SignalArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
@@ -108,6 +111,7 @@ impl Command {
             Self::Compare(arguments) => compare::compare(arguments, terminal),
             Self::Rheometer(arguments) => rheometer::rheometer(arguments, terminal),
             Self::Cost(arguments) => cost::cost(arguments, terminal),
+            Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),

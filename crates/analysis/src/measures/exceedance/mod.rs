@@ -26,7 +26,7 @@ choices! {
 
 /// The magnitude of a signal over a window, in pieces on which it rises or falls.
 #[derive(Debug)]
-pub(crate) struct Exceedance {
+pub struct Exceedance {
     pieces: Vec<Piece>,
 }
 
@@ -39,18 +39,18 @@ struct Piece {
 
 /// The level that is reached for a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Level {
+pub struct Level {
     /// Its value.
-    pub(crate) value: f64,
+    pub value: f64,
     /// Whether it is still reached at the end of the window.
-    pub(crate) reaches_end: bool,
+    pub reaches_end: bool,
     /// The least slope with which the signal passes it; 0 where it does not.
-    pub(crate) slope: f64,
+    pub slope: f64,
 }
 
 impl Exceedance {
     /// Looks at a signal in a window.
-    pub(crate) fn new(signal: &Signal, window: (f64, f64)) -> Self {
+    pub fn new(signal: &Signal, window: (f64, f64)) -> Self {
         let turns = signal.extrema(window).into_iter().map(|extremum| extremum.time);
         let zeros = signal.crossings(0.0, window).into_iter().map(|crossing| crossing.time);
         let mut cuts: Vec<f64> = turns.chain(zeros).collect();
@@ -77,7 +77,7 @@ impl Exceedance {
     }
 
     /// The largest level that is reached for `duration` \[s\], to the last digits.
-    pub(crate) fn level(&self, duration: f64, counted: Counted) -> Level {
+    pub fn level(&self, duration: f64, counted: Counted) -> Level {
         let ends = self.pieces.iter().flat_map(|piece| piece.ends);
         let most = ends.map(f64::abs).fold(0.0, f64::max);
         // The time falls as the level rises.

@@ -1,0 +1,203 @@
+//! What `signal` draws, and what it writes into a folder.
+
+use std::path::PathBuf;
+
+use dashpot_network::parameters::Dimension;
+use dashpot_plot::{Chart, Marker, Pattern, Report, ReportFigure, Series, Stroke, Table};
+use dashpot_signal::{Analysis, Band, Measure};
+use dashpot_units::si_unit;
+
+use super::{
+    Group, Signal, Signals,
+    words::{self, heading, repeats, table, treatment, unit},
+};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    numbers::quantity,
+    output::{PAGE, VERSION, csv, list},
+};
+
+/// All measures of all channels.
+const MEASURES: &str = "measures.csv";
+/// Milliseconds in a second.
+const MS: f64 = 1e3;
+/// Digits of a peak in a figure.
+const DIGITS: usize = 4;
+
+/// What files of results are named by: the names of files without folder and ending, each once.
+pub(super) fn stems(files: &[PathBuf]) -> Vec<String> {
+    let mut stems: Vec<String> = Vec::new();
+    for file in files {
+        let name = file.file_stem().map_or("signal".into(), |own| own.to_string_lossy());
+        let is_plain = |own: char| own.is_alphanumeric() || matches!(own, '-' | '_');
+        let stem: String = name.chars().map(|own| if is_plain(own) { own } else { '-' }).collect();
+        let is_known = |own: &str| stems.iter().any(|known| known == own);
+        let mut numbered = (2..).map(|at| format!("{stem}-{at}"));
+        let taken = is_known(&stem) || stem.is_empty();
+        let stem = if taken { numbered.find(|own| !is_known(own)).unwrap_or(stem) } else { stem };
+        stems.push(stem);
+    }
+    stems
+}
+
+/// The files that are written besides the result.
+pub(super) fn names(signals: &Signals) -> Vec<String> {
+    let records = records(signals).into_iter().map(|own| own.0);
+    let figures = signals.groups().len();
+    let figures = (1..=figures).map(|at| format!("channel-{at}.svg"));
+    records.chain(figures).chain([MEASURES.to_owned(), PAGE.to_owned()]).collect()
+}
+
+/// The channels of one file that have the same times, with the name of their table.
+fn records(signals: &Signals) -> Vec<(String, Vec<&Signal>)> {
+    let mut records: Vec<(String, Vec<&Signal>)> = Vec::new();
+    for own in &signals.all {
+        let name = format!("{}.csv", own.stem);
+        match records.iter_mut().find(|record| record.0 == name) {
+            Some(record) => record.1.push(own),
+            None => records.push((name, vec![own])),
+        }
+    }
+    records
+}
+
+/// Adds all files but the result.
+pub(super) fn write(files: &mut Staged<'_>, signals: &Signals) -> Result<(), CliError> {
+    for (name, record) in records(signals) {
+        let columns: Vec<(String, &[f64])> = record.iter().flat_map(|own| columns(own)).collect();
+        let times = record.first().map_or(&[][..], |own| own.analysis.channel.times());
+        let header =
+            ["time [s]".to_owned()].into_iter().chain(columns.iter().map(|own| own.0.clone()));
+        let row = |at: usize| {
+            let values = columns.iter().map(move |own| own.1.get(at).copied());
+            list([times.get(at).copied()].into_iter().chain(values))
+        };
+        files.add_with(name, |out| csv(out, header, (0..times.len()).map(row)))?;
+    }
+    let header = ["file", "measure", "value", "error", "unit", "on samples"].map(str::to_owned);
+    files.add_with(MEASURES, |out| csv(out, header, signals.all.iter().flat_map(rows)))?;
+    let figures: Vec<ReportFigure> =
+        charts(signals).iter().map(ReportFigure::of).collect::<Result<_, _>>()?;
+    for (at, own) in figures.iter().enumerate() {
+        files.add(format!("channel-{}.svg", at + 1), &own.svg)?;
+    }
+    files.add(PAGE, page(signals, figures).html())
+}
+
+/// What is known of a channel over time, in SI units.
+fn columns(own: &Signal) -> Vec<(String, &[f64])> {
+    let channel = &own.analysis.channel;
+    let name = channel.name();
+    let mut all = vec![(format!("{name} [{}]", si_unit(channel.dimension())), channel.values())];
+    if let Some(motion) = &own.analysis.motion {
+        all.push((format!("{name} velocity [m/s]"), &motion.velocity));
+        all.push((format!("{name} velocity error [m/s]"), &motion.velocity_error));
+        all.push((format!("{name} displacement [m]"), &motion.displacement));
+        all.push((format!("{name} displacement error [m]"), &motion.displacement_error));
+    }
+    all
+}
+
+fn rows(own: &Signal) -> Vec<impl serde::Serialize + use<>> {
+    let channel = &own.analysis.channel;
+    let row = |reading: &dashpot_signal::Reading| {
+        let unit = si_unit(reading.measure.dimension(channel.dimension()));
+        let key = format!("{}.{}", channel.name(), reading.measure.word());
+        let value = reading.value.ok();
+        (own.file.clone(), key, value, value.map(|_| reading.error), unit, reading.on_samples)
+    };
+    list(own.analysis.readings.iter().map(row))
+}
+
+/// One figure for each name of a channel, with all its tests.
+fn charts(signals: &Signals) -> Vec<Chart> {
+    signals.groups().iter().map(chart).collect()
+}
+
+fn chart(group: &Group<'_>) -> Chart {
+    let (name, tests) = (group.name, group.analyses());
+    let (dimension, largest) = tests.iter().fold((Dimension::NUMBER, 0.0_f64), |best, own| {
+        (own.channel.dimension(), best.1.max(own.channel.largest().1))
+    });
+    let unit = unit(largest, dimension);
+    let is_treated = tests.iter().any(|own| own.settings.cfc.is_some());
+    let line = |times: &[f64], values: &[f64], start: f64| {
+        let points = times.iter().zip(values);
+        points.map(|(time, value)| (MS * (time - start), unit.of(*value))).collect::<Vec<_>>()
+    };
+    // Several tests stand over each other from the beginning of their contacts.
+    let start = |own: &Analysis| if tests.len() > 1 { own.contact.window.0 } else { 0.0 };
+    let mut series = Vec::new();
+    for (colour, Signal { stem, analysis: own, .. }) in group.tests.iter().enumerate() {
+        let stroke = |pattern| Some(Stroke { colour, pattern });
+        if is_treated {
+            let points = line(own.raw.times(), own.raw.values(), start(own));
+            let name = format!("{stem} as recorded");
+            series.push(Series { name, points, stroke: stroke(Pattern::Broad) });
+        }
+        let points = line(own.channel.times(), own.channel.values(), start(own));
+        series.push(Series { name: stem.clone(), points, stroke: stroke(Pattern::Solid) });
+    }
+    if let Some(band) = Band::of(&tests) {
+        let edge = |sign: f64| {
+            let values = band.mean.iter().zip(&band.deviation).map(|own| own.0 + sign * own.1);
+            line(&band.times, &values.collect::<Vec<_>>(), 0.0)
+        };
+        let stroke = |pattern| Some(Stroke { colour: tests.len(), pattern });
+        let mean = line(&band.times, &band.mean, 0.0);
+        series.push(Series {
+            name: "mean".to_owned(),
+            points: mean,
+            stroke: stroke(Pattern::Solid),
+        });
+        for (name, sign) in [("mean + std dev", 1.0), ("mean − std dev", -1.0)] {
+            let name = name.to_owned();
+            series.push(Series { name, points: edge(sign), stroke: stroke(Pattern::Dotted) });
+        }
+    }
+    let markers = tests.iter().filter(|_| tests.len() == 1).filter_map(|own| {
+        let peak = own.reading(Measure::Peak)?;
+        let (time, at) = (peak.time?, own.channel.largest().0);
+        let value = *own.channel.values().get(at)?;
+        let label =
+            format!("{} at {}", unit.text(peak.value.ok()?, DIGITS), quantity(time, "s", DIGITS));
+        Some(Marker { x: MS * time, y: unit.of(value), label })
+    });
+    let since = if tests.len() > 1 { "time since contact (ms)" } else { "time (ms)" };
+    Chart {
+        title: name.to_owned(),
+        x_label: since.to_owned(),
+        y_label: format!("{name} ({})", unit.symbol),
+        markers: markers.collect(),
+        series,
+        ..Chart::default()
+    }
+}
+
+fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {
+    let names: Vec<&str> = signals.groups().iter().map(|own| own.name).collect();
+    let verdicts = signals.verdicts();
+    let verdict = verdicts.iter().map(|own| {
+        let (label, text) = words::judged(own);
+        format!("{label}: {}: {text}", own.signal.file)
+    });
+    let of_each =
+        signals.all.iter().map(|own| Table { caption: heading(own), ..table(&own.analysis) });
+    let groups = signals.groups();
+    let of_all = groups.iter().map(repeats);
+    let treated = signals.all.iter().map(|own| Table::list(heading(own), treatment(&own.analysis)));
+    let version = Table::new("Settings", &[], [vec!["dashpot".to_owned(), VERSION.to_owned()]]);
+    Report {
+        title: format!("Measured: {}", names.join(", ")),
+        warnings: words::warnings(signals),
+        verdict: verdict.collect(),
+        tables: of_each.chain(of_all).filter(|own| !own.rows.is_empty()).collect(),
+        figures,
+        details: treated
+            .chain([version, Table::list("Notes", signals.notes.iter().cloned())])
+            .filter(|own| !own.rows.is_empty())
+            .collect(),
+        ..Report::default()
+    }
+}

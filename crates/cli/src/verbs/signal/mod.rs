@@ -1,0 +1,307 @@
+//! `dashpot signal`.
+
+mod files;
+mod limits;
+mod mme;
+mod object;
+mod read;
+mod words;
+mod zip;
+
+use std::path::PathBuf;
+
+use clap::{
+    Args,
+    builder::{PossibleValue, PossibleValuesParser},
+};
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::units::parse_quantity;
+use dashpot_signal::{Analysis, Approach, Cfc, Channel, Padding, Removal, Settings};
+use serde::Serialize;
+
+use self::{
+    limits::{SignalLimit, Verdict},
+    read::{Record, Wanted},
+};
+use crate::{
+    args::{frequency_class, signed_time},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    output::{Study, Text, emit},
+    terminal::{Terminal, note},
+};
+
+/// `signal`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot signal drop.csv\n  \
+    dashpot signal drop.csv --cfc 180 --offset auto --limit \"acc.hic15<=700\"\n  \
+    dashpot signal drop.csv --channel force --out drop\n  \
+    dashpot signal logger.csv --units \"s, g\" --channel 2\n\n\
+    Between samples a signal is a straight line, and windows are continuous; each number has the error of what samples do \
+    not tell, and beside it stands the value on the samples alone. Nothing is filtered and no offset taken off unless asked \
+    for.")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
+pub(crate) struct SignalArguments {
+    /// Tables with columns of time and of what was measured; or tests in ISO-MME: an `.mme` file, its folder, or a zip of it.
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// A channel by the name or the number of its column [default: all accelerations and forces]; repeatable.
+    #[arg(long, value_name = "NAME")]
+    channel: Vec<String>,
+    /// Units of the columns where the file says none, in their order: "s, g".
+    #[arg(long, value_name = "UNIT,…", value_delimiter = ',')]
+    units: Vec<String>,
+    /// Sampling rate: of a file without times; or at which the line between its samples is read.
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    rate: Option<f64>,
+    /// What is taken off: `auto`, the reading at rest before the pulse, or a value such as "0.3 g".
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    offset: Option<String>,
+    /// Turns the signs.
+    #[arg(long)]
+    invert: bool,
+    /// Filters by a channel frequency class of SAE J211: 60, 180, 600 or 1000.
+    #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
+    cfc: Option<Cfc>,
+    /// What stands beyond the ends of the record for the filter.
+    #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
+    padding: String,
+    /// Reads the record from this time on, behind the filter.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    from: Option<f64>,
+    /// Reads it up to this time.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    to: Option<f64>,
+    /// Speed of approach of the body that an accelerometer is on, at the beginning of the record: gives its displacement,
+    /// its rebound and the coefficient of restitution.
+    #[arg(long, value_name = "SPEED", value_parser = speed)]
+    velocity: Option<f64>,
+    /// Its mass: gives energy taken, returned and absorbed.
+    #[arg(long, value_name = "MASS", value_parser = mass, requires = "velocity")]
+    mass: Option<f64>,
+    /// It falls: its weight acts along the blow.
+    #[arg(long, requires = "velocity")]
+    falls: bool,
+    /// The displacement over which a force does its work, by the name or number of its column [default: the only
+    /// one of the file].
+    #[arg(long, value_name = "NAME")]
+    displacement: Option<String>,
+    /// A limit such as "acc.hic15<=700", "acc.peak<=250 g" or "acc.peak=en-1078" (`dashpot list limits`); repeatable.
+    #[arg(long, value_name = "LIMIT", value_parser = limits::parse)]
+    limit: Vec<limits::Parsed>,
+    /// Ends with exit code 4 unless every limit is kept for certain.
+    #[arg(long)]
+    enforce: bool,
+    /// Folder for CSV, JSON, SVG and report.html with all on one page; it is made if need be.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long)]
+    json: bool,
+}
+
+fn paddings() -> PossibleValuesParser {
+    let value = |own: Padding| PossibleValue::new(own.word()).help(own.summary());
+    PossibleValuesParser::new(Padding::ALL.map(value))
+}
+
+fn frequency(text: &str) -> Result<f64, String> {
+    let found = crate::input::setting("rate", text, Dimension::FREQUENCY);
+    let found = found.map_err(|error| error.to_string())?;
+    if found > 0.0 { Ok(found) } else { Err("a rate is positive, such as \"20 kHz\"".to_owned()) }
+}
+
+fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
+    let found = crate::input::setting(name, text, dimension).map_err(|error| error.to_string())?;
+    if found > 0.0 { Ok(found) } else { Err("it must be positive".to_owned()) }
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    positive("velocity", text, Dimension::VELOCITY)
+}
+
+fn mass(text: &str) -> Result<f64, String> {
+    positive("mass", text, Dimension::MASS)
+}
+
+/// A channel of a file as it was read.
+struct Signal {
+    /// Its file, and what files of results are named by.
+    file: String,
+    stem: String,
+    analysis: Analysis,
+}
+
+/// What some files say.
+struct Signals {
+    all: Vec<Signal>,
+    limits: Vec<SignalLimit>,
+    notes: Vec<String>,
+}
+
+impl<'a> From<&'a SignalArguments> for Wanted<'a> {
+    fn from(own: &'a SignalArguments) -> Self {
+        Self {
+            channels: &own.channel,
+            units: &own.units,
+            rate: own.rate,
+            displacement: own.displacement.as_deref(),
+        }
+    }
+}
+
+impl SignalArguments {
+    fn settings(&self, record: &Record, dimension: Dimension) -> Result<Settings, CliError> {
+        let offset = match self.offset.as_deref().map(str::trim) {
+            None => Removal::Nothing,
+            Some("auto") => Removal::Found,
+            Some(text) => Removal::Given(offset(text, dimension)?),
+        };
+        let window = (self.from.is_some() || self.to.is_some())
+            .then(|| (self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)));
+        let padding = Padding::ALL.into_iter().find(|own| own.word() == self.padding);
+        Ok(Settings {
+            offset,
+            is_inverted: self.invert,
+            rate: self.rate.filter(|_| record.has_times),
+            cfc: self.cfc,
+            padding: padding.unwrap_or_default(),
+            window,
+            approach: self.velocity.map(|velocity| Approach {
+                velocity,
+                mass: self.mass,
+                falls: self.falls,
+            }),
+        })
+    }
+}
+
+/// An offset in the unit of what is measured.
+fn offset(text: &str, dimension: Dimension) -> Result<f64, CliError> {
+    let wrong = |reason: String| CliError::WrongSetting { name: "--offset".to_owned(), reason };
+    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?.meant(dimension);
+    match found.dimension {
+        Some(own) if own == dimension => Ok(found.value),
+        None if found.value == 0.0 => Ok(0.0),
+        _ => {
+            let unit = dashpot_units::si_unit(dimension);
+            Err(wrong(format!(
+                "`{text}` is not in a unit of the channel: write it with one, as in \"0.3 {unit}\", or `auto`"
+            )))
+        }
+    }
+}
+
+/// Reads files.
+pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<Status, CliError> {
+    let limits: Vec<SignalLimit> =
+        arguments.limit.iter().flat_map(|own| own.list.clone()).collect();
+    if arguments.enforce && limits.is_empty() {
+        return Err(CliError::NoLimits);
+    }
+    let stems = files::stems(&arguments.files);
+    let (mut all, mut notes) = (Vec::new(), Vec::new());
+    for (path, stem) in arguments.files.iter().zip(stems) {
+        let record = read::read(path, &arguments.into())?;
+        notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
+        all.extend(signals(arguments, &record, &stem)?);
+    }
+    let signals = Signals { all, limits, notes };
+    limits::known(&signals)?;
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names(&signals))?;
+    signals.notes.iter().for_each(|own| note(own));
+    let is_kept = signals.verdicts().iter().all(Verdict::passes);
+    emit(&signals, arguments.json, folder, terminal)?;
+    Ok(if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done })
+}
+
+/// The channels of a record as they are read.
+fn signals(
+    arguments: &SignalArguments,
+    record: &Record,
+    stem: &str,
+) -> Result<Vec<Signal>, CliError> {
+    let analyse = |channel: &Channel| {
+        let settings = arguments.settings(record, channel.dimension())?;
+        settings.analyse(channel.clone()).map_err(|fault| CliError::Signal {
+            file: record.file.clone(),
+            channel: channel.name().to_owned(),
+            fault: Box::new(fault),
+        })
+    };
+    let displacement = record.displacement.as_ref().map(|own| {
+        // It has an offset and a sign of its own.
+        let settings = arguments.settings(record, own.dimension())?;
+        let settings = Settings { offset: Removal::Nothing, ..settings };
+        settings.analyse(own.clone()).map_err(|fault| CliError::Signal {
+            file: record.file.clone(),
+            channel: own.name().to_owned(),
+            fault: Box::new(fault),
+        })
+    });
+    let displacement = displacement.transpose()?;
+    let mut all = Vec::new();
+    for channel in &record.channels {
+        let mut analysis = analyse(channel)?;
+        if let Some(displacement) =
+            displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
+        {
+            analysis.add_work(displacement).map_err(|fault| CliError::SignalFile {
+                file: record.file.clone(),
+                reason: format!(
+                    "`{}` and `{}`: {fault}",
+                    channel.name(),
+                    displacement.channel.name()
+                ),
+            })?;
+        }
+        all.push(Signal { file: record.file.clone(), stem: stem.to_owned(), analysis });
+    }
+    Ok(all)
+}
+
+/// The channels of one name in several files.
+struct Group<'s> {
+    name: &'s str,
+    tests: Vec<&'s Signal>,
+}
+
+impl Group<'_> {
+    fn analyses(&self) -> Vec<&Analysis> {
+        self.tests.iter().map(|own| &own.analysis).collect()
+    }
+}
+
+impl Signals {
+    /// The channels of the same name, for each name in the order in which it comes.
+    fn groups(&self) -> Vec<Group<'_>> {
+        let mut groups: Vec<Group<'_>> = Vec::new();
+        for own in &self.all {
+            let name = own.analysis.channel.name();
+            match groups.iter_mut().find(|group| group.name == name) {
+                Some(group) => group.tests.push(own),
+                None => groups.push(Group { name, tests: vec![own] }),
+            }
+        }
+        groups
+    }
+}
+
+impl Study for Signals {
+    fn text(&self, text: &mut Text) {
+        words::text(self, text);
+    }
+
+    fn object(&self) -> impl Serialize {
+        object::of(self)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        words::warnings(self)
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

@@ -1,0 +1,122 @@
+//! Channels as objects for programs.
+
+use dashpot_analysis::Bound;
+use dashpot_signal::{Cfc, Reading, Reason, Removal, Repeated};
+use dashpot_units::{Dimension, si_unit};
+use serde::Serialize;
+
+use super::{Group, Signal, Signals, limits::Verdict};
+use crate::output::{Pairs, VERSION, list, object};
+
+pub(super) fn of(signals: &Signals) -> impl Serialize {
+    object! {
+        dashpot: VERSION,
+        channels: list(signals.all.iter().map(channel)),
+        repeats: list(signals.groups().iter().filter(|own| own.tests.len() > 1).map(repeats)),
+        limits: list(signals.verdicts().into_iter().map(verdict)),
+        notes: &signals.notes,
+    }
+}
+
+fn channel(signal: &Signal) -> impl Serialize {
+    let own = &signal.analysis;
+    let settings = own.settings;
+    let name = own.channel.name();
+    let readings = own.readings.iter();
+    let measures: Pairs<String, _> = readings
+        .map(|reading| (format!("{name}.{}", reading.measure.word()), measure(signal, reading)))
+        .collect();
+    object! {
+        file: &signal.file,
+        name,
+        unit: si_unit(own.channel.dimension()),
+        samples: own.channel.times().len(),
+        rate: own.rate(),
+        span: own.channel.span(),
+        polarity: own.polarity.word(),
+        inverted: settings.is_inverted,
+        cfc: settings.cfc.map(Cfc::class),
+        filter: settings.cfc.map(|cfc| object! {
+            class: cfc.class(),
+            padding: settings.padding.word(),
+            design_frequency: cfc.design_frequency(),
+            gain_at_class: cfc.gain(cfc.class(), own.rate()),
+            gain_at_design_frequency: cfc.gain(cfc.design_frequency(), own.rate()),
+        }),
+        offset: own.offset.map(|offset| object! {
+            value: offset.value,
+            error: offset.error,
+            window: offset.window,
+            samples: offset.samples,
+            noise: offset.noise,
+            drift: offset.drift,
+        }),
+        removed: own.removed,
+        removal: match settings.offset {
+            Removal::Nothing => "nothing",
+            Removal::Found => "auto",
+            Removal::Given(_) => "given",
+        },
+        measures,
+        warnings: list(own.defects.iter().map(|own| object! {
+            code: own.code(),
+            text: own.to_string(),
+        })),
+    }
+}
+
+fn measure(signal: &Signal, reading: &Reading) -> impl Serialize {
+    let dimension = reading.measure.dimension(signal.analysis.channel.dimension());
+    object! {
+        value: reading.value.ok(),
+        unit: si_unit(dimension),
+        time: reading.time,
+        window: reading.window,
+        error: reading.value.ok().map(|_| reading.error),
+        on_samples: reading.on_samples,
+        note_code: reading.value.err().map(Reason::code),
+    }
+}
+
+fn repeats(group: &Group<'_>) -> impl Serialize + use<> {
+    let (name, tests) = (group.name, group.analyses());
+    let dimension = tests.first().map_or(Dimension::NUMBER, |own| own.channel.dimension());
+    let measures: Pairs<String, _> = Repeated::of(&tests)
+        .into_iter()
+        .map(|own| {
+            let value = object! {
+                tests: own.tests,
+                mean: own.mean,
+                error: own.error,
+                deviation: own.deviation,
+                variation: own.variation(),
+                repeatability: own.repeatability(),
+                range: own.range,
+                unit: si_unit(own.measure.dimension(dimension)),
+            };
+            (format!("{name}.{}", own.measure.word()), value)
+        })
+        .collect();
+    object! { name: name.to_owned(), tests: tests.len(), measures }
+}
+
+fn verdict(own: Verdict<'_>) -> impl Serialize {
+    let limit = &own.limit.limit;
+    let bound = limit.bound;
+    let dimension = own.measure.dimension(own.signal.analysis.channel.dimension());
+    object! {
+        file: (own.tests == 1).then(|| own.signal.file.clone()),
+        key: limit.key.clone(),
+        max: matches!(bound, Bound::Max(_)).then_some(bound.level()),
+        min: matches!(bound, Bound::Min(_)).then_some(bound.level()),
+        from: limit.from.clone(),
+        of_mean: limit.of_mean,
+        tests: own.tests,
+        unit: si_unit(dimension),
+        value: own.value,
+        error: own.value.map(|_| own.error),
+        verdict: own.judgement.word(),
+        reason: own.judgement.reason().map(dashpot_analysis::Reason::word),
+        margin: own.value.and_then(|value| bound.margin(value)),
+    }
+}

@@ -1,0 +1,167 @@
+//! From a raw channel to its numbers.
+
+use dashpot_units::Dimension;
+use thiserror::Error;
+
+use crate::{
+    Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Measure, Motion, Offset,
+    Padding, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
+};
+
+/// What is taken off a channel before anything else.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Removal {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The reading at rest before the pulse.
+    Found,
+    /// This much, in SI units.
+    Given(f64),
+}
+
+/// What is done with a channel before it is read.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Settings {
+    /// What is taken off.
+    pub offset: Removal,
+    /// Whether its signs are turned.
+    pub is_inverted: bool,
+    /// The rate at which it is read off the line between its samples \[Hz\]; as it is by default.
+    pub rate: Option<f64>,
+    /// The filter; none by default.
+    pub cfc: Option<Cfc>,
+    /// What stands beyond the ends of the record for the filter.
+    pub padding: Padding,
+    /// The part that is read, cut behind the filter \[s\].
+    pub window: Option<(f64, f64)>,
+    /// How a body moves that an accelerometer is on, where its motion is wanted.
+    pub approach: Option<Approach>,
+}
+
+/// Why a channel cannot be read as it is asked for.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum SettingsFault {
+    /// An offset that is to be found, and no record before the pulse.
+    #[error("there are fewer than eight samples at rest before the pulse: no offset can be found")]
+    NoRest,
+    /// A filter on uneven steps.
+    #[error(
+        "its steps are from {} to {} ms long, and a CFC filter wants even ones", 1e3 * .range.0, 1e3 * .range.1
+    )]
+    UnevenSteps { range: (f64, f64) },
+    /// A filter that does not fit.
+    #[error(transparent)]
+    Cfc(#[from] CfcFault),
+    /// A window or rate that leaves no signal.
+    #[error("nothing is left of it in the window, or at the rate, that is asked for")]
+    NothingLeft(#[source] ChannelFault),
+}
+
+/// A channel that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    /// The channel as it was recorded.
+    pub raw: Channel,
+    /// The same as it was read: without offset, filtered, cut.
+    pub channel: Channel,
+    /// Steps of the record.
+    pub steps: Steps,
+    /// The reading at rest, where the record tells it.
+    pub offset: Option<Offset>,
+    /// What was taken off, in SI units.
+    pub removed: Option<f64>,
+    /// What was done with it.
+    pub settings: Settings,
+    /// Which way its peak points.
+    pub polarity: Polarity,
+    /// The stretch about the peak.
+    pub contact: Contact,
+    /// Its numbers.
+    pub readings: Vec<Reading>,
+    /// The motion of the body that it is on, where that is wanted and it is an acceleration.
+    pub motion: Option<Motion>,
+    /// The work of a force, where there is a displacement.
+    pub work: Option<Work>,
+    /// How far every sample may be off in the same direction, by the offset and the resolution.
+    pub floor: f64,
+    /// What is wrong with it.
+    pub defects: Vec<Defect>,
+}
+
+impl Settings {
+    /// Reads a channel.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsFault`], where the channel does not allow what is asked for.
+    pub fn analyse(&self, raw: Channel) -> Result<Analysis, SettingsFault> {
+        let steps = raw.steps();
+        let offset = Offset::before_pulse(&raw);
+        let (removed, error) = match (self.offset, offset) {
+            (Removal::Nothing, _) => (None, 0.0),
+            (Removal::Given(value), _) => (Some(value), 0.0),
+            (Removal::Found, Some(offset)) => (Some(offset.value), offset.error),
+            (Removal::Found, None) => return Err(SettingsFault::NoRest),
+        };
+        let floor = error + 0.5 * raw.resolution();
+        let sign = if self.is_inverted { -1.0 } else { 1.0 };
+        let mut channel = raw.map(|own| sign * (own - removed.unwrap_or(0.0)));
+        if let Some(rate) = self.rate {
+            channel = channel.resampled(rate).map_err(SettingsFault::NothingLeft)?;
+        }
+        if let Some(cfc) = self.cfc {
+            let steps = channel.steps();
+            if !steps.are_even {
+                return Err(SettingsFault::UnevenSteps { range: steps.range });
+            }
+            let values = cfc.filter(channel.values(), steps.rate, self.padding)?;
+            channel = channel.with_values(values);
+        }
+        if let Some(window) = self.window {
+            channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
+        }
+        let reader = Reader::new(&channel, floor);
+        let mut readings: Vec<Reading> =
+            Measure::of(channel.dimension()).filter_map(|own| reader.read(own)).collect();
+        let approach = self.approach.filter(|_| channel.dimension() == Dimension::ACCELERATION);
+        let motion = approach.map(|own| reader.motion(own));
+        for (motion, approach) in motion.iter().zip(approach) {
+            readings.extend(motion.readings(&channel, approach));
+        }
+        let (polarity, contact) = (channel.polarity(), reader.contact());
+        drop(reader);
+        let (settings, none) = (*self, Vec::new());
+        let mut own = Analysis {
+            raw,
+            channel,
+            steps,
+            offset,
+            removed,
+            settings,
+            polarity,
+            contact,
+            readings,
+            motion,
+            work: None,
+            floor,
+            defects: none,
+        };
+        own.defects = defects(&own);
+        Ok(own)
+    }
+}
+
+impl Analysis {
+    /// The reading of a measure, where it has one.
+    pub fn reading(&self, measure: Measure) -> Option<&Reading> {
+        self.readings.iter().find(|own| own.measure == measure)
+    }
+
+    /// The sampling rate at which it was filtered and read \[Hz\].
+    pub fn rate(&self) -> f64 {
+        self.settings.rate.unwrap_or(self.steps.rate)
+    }
+}

@@ -1,0 +1,347 @@
+//! What is wrong with a record, and what a reader of its numbers must know.
+
+use std::fmt;
+
+use dashpot_analysis::measures::STANDARD_GRAVITY;
+use dashpot_units::{Dimension, quantity, si_unit};
+
+use crate::{Analysis, Channel, Removal};
+
+/// So many equal samples in a row are no chance.
+const EQUAL: usize = 3;
+/// What stands out of equal samples by so many steps of resolution is no slope of a coarse curve.
+const COARSE_STEPS: f64 = 4.0;
+/// Shares of the peak: an offset, a rest behind the pulse, a resolution, a sample out of line.
+const OFFSET_SHARE: f64 = 0.001;
+const REST_SHARE: f64 = 0.02;
+const RESOLUTION_SHARE: f64 = 0.01;
+const SPIKE_SHARE: f64 = 0.3;
+/// A pulse of fewer samples is hardly seen.
+const FEW: usize = 10;
+/// Peaks of accelerations and lengths of pulses that impact tests have.
+const ACCELERATIONS: (f64, f64) = (0.5 * STANDARD_GRAVITY, 2e4 * STANDARD_GRAVITY);
+const LENGTHS: (f64, f64) = (2e-5, 2.0);
+/// Digits of numbers in messages.
+const DIGITS: usize = 3;
+
+/// What is wrong with a channel, or with how it is read. Values are in SI units, times in s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum Defect {
+    /// Every sample is the same.
+    Flat { value: f64, unit: Dimension },
+    /// A reading at rest that is not taken off.
+    Offset { value: f64, error: f64, share: f64, unit: Dimension },
+    /// A reading at rest that changes, before the pulse or from before it to behind it.
+    Drift { change: f64, share: f64, unit: Dimension },
+    /// The end of the range of a sensor or amplifier.
+    Clipped { level: f64, samples: usize, time: f64, unit: Dimension },
+    /// The same value again and again within the pulse.
+    Held { samples: usize, time: f64 },
+    /// Steps in which samples are missing.
+    Dropped { gaps: usize, time: f64, longest: f64, usual: f64 },
+    /// Single samples out of line.
+    Spikes { count: usize, time: f64 },
+    /// Steps that differ.
+    UnevenSteps { range: (f64, f64) },
+    /// A resolution that is coarse beside the peak.
+    Coarse { step: f64, share: f64, unit: Dimension },
+    /// A pulse of few samples.
+    FewSamples { samples: usize },
+    /// A record that begins or ends within the pulse.
+    Cut,
+    /// A sampling rate below ten times the class of the filter.
+    SlowForClass { rate: f64, class: f64, least: f64 },
+    /// A class that the standards do not name.
+    OddClass { class: f64 },
+    /// A peak that no impact test has: the unit may be another.
+    OddPeak { peak: f64 },
+    /// A length of a pulse that no impact test has: the unit of time may be another.
+    OddLength { length: f64 },
+}
+
+impl Defect {
+    /// Its word for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Flat { .. } => "flat",
+            Self::Offset { .. } => "offset",
+            Self::Drift { .. } => "drift",
+            Self::Clipped { .. } => "clipped",
+            Self::Held { .. } => "held",
+            Self::Dropped { .. } => "dropped-samples",
+            Self::Spikes { .. } => "spikes",
+            Self::UnevenSteps { .. } => "uneven-steps",
+            Self::Coarse { .. } => "coarse",
+            Self::FewSamples { .. } => "few-samples",
+            Self::Cut => "cut",
+            Self::SlowForClass { .. } => "slow-for-class",
+            Self::OddClass { .. } => "odd-class",
+            Self::OddPeak { .. } => "odd-peak",
+            Self::OddLength { .. } => "odd-length",
+        }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = |value: f64, unit: Dimension| shown(value, unit);
+        let ms = |time: f64| quantity(time, "s", DIGITS);
+        let percent = |share: f64| dashpot_units::percent(share, 2);
+        match *self {
+            Self::Flat { value, unit } => {
+                write!(f, "every sample is {}: nothing was measured", shown(value, unit))
+            }
+            Self::Offset { value, error, share, unit } => write!(
+                f,
+                "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
+                shown(value, unit),
+                shown(error, unit),
+                percent(share)
+            ),
+            Self::Drift { change, share, unit } => write!(
+                f,
+                "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
+                shown(change, unit),
+                percent(share)
+            ),
+            Self::Clipped { level, samples, time, unit } => write!(
+                f,
+                "is clipped at {}: {samples} equal samples at its largest value, from {} on; the peak was higher",
+                shown(level, unit),
+                ms(time)
+            ),
+            Self::Held { samples, time } => write!(
+                f,
+                "holds one value for {samples} samples within the pulse, from {} on: samples were dropped",
+                ms(time)
+            ),
+            Self::Dropped { gaps, time, longest, usual } => write!(
+                f,
+                "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
+                if gaps == 1 { "place" } else { "places" },
+                ms(time),
+                ms(longest),
+                ms(usual)
+            ),
+            Self::Spikes { count, time } => write!(
+                f,
+                "{count} {} out of line with both neighbours, the first one at {}",
+                if count == 1 { "sample is" } else { "samples are" },
+                ms(time)
+            ),
+            Self::UnevenSteps { range } => write!(
+                f,
+                "its steps are uneven, from {} to {}; a line between samples takes them as they are",
+                ms(range.0),
+                ms(range.1)
+            ),
+            Self::Coarse { step, share, unit } => write!(
+                f,
+                "its values come in steps of {}, {} of the peak",
+                shown(step, unit),
+                percent(share)
+            ),
+            Self::FewSamples { samples } => {
+                write!(f, "its pulse has {samples} samples: the sampling rate is too low")
+            }
+            Self::Cut => {
+                write!(
+                    f,
+                    "the record begins or ends within the pulse: its numbers are those of a part"
+                )
+            }
+            Self::SlowForClass { rate, class, least } => write!(
+                f,
+                "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
+                quantity(rate, "Hz", DIGITS),
+                quantity(least, "Hz", DIGITS)
+            ),
+            Self::OddClass { class } => {
+                write!(f, "CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")
+            }
+            Self::OddPeak { peak } => write!(
+                f,
+                "a peak of {} is none of an impact: is the unit right?",
+                shown(peak, Dimension::ACCELERATION)
+            ),
+            Self::OddLength { length } => {
+                write!(
+                    f,
+                    "a pulse of {} is none of an impact: is the unit of time right?",
+                    ms(length)
+                )
+            }
+        }
+    }
+}
+
+/// A value as the field writes it: accelerations in g.
+fn shown(value: f64, unit: Dimension) -> String {
+    if unit == Dimension::ACCELERATION {
+        return format!("{} g", dashpot_units::significant(value / STANDARD_GRAVITY, DIGITS));
+    }
+    quantity(value, &si_unit(unit), DIGITS)
+}
+
+/// What is wrong with a channel that was read.
+pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
+    let peak = own.channel.largest().1;
+    let unit = own.raw.dimension();
+    let first = own.raw.values()[0];
+    if own.raw.values().iter().all(|value| value.total_cmp(&first).is_eq()) {
+        return vec![Defect::Flat { value: first, unit }];
+    }
+    let mut all = Vec::new();
+    all.extend(clipped(&own.raw, unit));
+    all.extend(held(own));
+    all.extend(dropped(own));
+    all.extend(spikes(&own.raw));
+    if own.contact.is_cut {
+        all.push(Defect::Cut);
+    }
+    all.extend(offset(own, peak, unit));
+    all.extend(drift(own, peak, unit));
+    let step = own.raw.resolution();
+    let share = step / own.raw.largest().1;
+    if share > RESOLUTION_SHARE {
+        all.push(Defect::Coarse { step, share, unit });
+    }
+    all.extend(of_pulse(own, peak, unit));
+    all.extend(of_filter(own));
+    all
+}
+
+/// Runs of equal samples of which both neighbours differ by more than the resolution: first sample and length.
+fn runs(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let values = channel.values();
+    let slope = COARSE_STEPS * channel.resolution();
+    let chunks = values.chunk_by(|one, other| one.total_cmp(other).is_eq());
+    chunks
+        .scan(0, |at, chunk| {
+            let start = *at;
+            *at += chunk.len();
+            Some((start, chunk.len()))
+        })
+        .filter(move |&(start, length)| {
+            let end = start + length;
+            let stands_out = |neighbour: Option<&f64>| {
+                neighbour.is_none_or(|own| (own - values[start]).abs() > slope)
+            };
+            let before = start.checked_sub(1).and_then(|at| values.get(at));
+            length >= EQUAL
+                && length < values.len()
+                && stands_out(before)
+                && stands_out(values.get(end))
+        })
+}
+
+fn clipped(channel: &Channel, unit: Dimension) -> Option<Defect> {
+    let (_, peak) = channel.largest();
+    let of_peak = |&(start, _): &(usize, usize)| channel.values()[start].abs() >= peak;
+    let mut all = runs(channel).filter(of_peak).peekable();
+    let (start, _) = *all.peek()?;
+    Some(Defect::Clipped {
+        level: channel.values()[start],
+        samples: all.map(|own| own.1).sum(),
+        time: channel.times()[start],
+        unit,
+    })
+}
+
+fn held(own: &Analysis) -> Option<Defect> {
+    let (times, values) = (own.raw.times(), own.raw.values());
+    let peak = own.raw.largest().1;
+    let (from, to) = own.contact.window;
+    let (start, samples) = runs(&own.raw).find(|&(start, length)| {
+        values[start].abs() < peak && times[start] > from && times[start + length - 1] < to
+    })?;
+    Some(Defect::Held { samples, time: times[start] })
+}
+
+fn dropped(own: &Analysis) -> Option<Defect> {
+    let steps = own.steps;
+    if steps.gaps == 0 {
+        let is_read = own.settings.rate.is_none() && !steps.are_even;
+        return is_read.then_some(Defect::UnevenSteps { range: steps.range });
+    }
+    let times = own.raw.times();
+    let mut all: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let unsorted = all.clone();
+    all.sort_by(f64::total_cmp);
+    let usual = all[all.len() / 2];
+    let first = unsorted.iter().position(|step| *step > 1.5 * usual)?;
+    Some(Defect::Dropped { gaps: steps.gaps, time: times[first], longest: steps.range.1, usual })
+}
+
+fn spikes(channel: &Channel) -> Option<Defect> {
+    let values = channel.values();
+    let peak = channel.largest().1;
+    let is_one = |at: &usize| {
+        let [one, own, other] = [values[at - 1], values[*at], values[at + 1]];
+        (own - 0.5 * (one + other)).abs() > SPIKE_SHARE * peak
+            && (other - one).abs() < 0.3 * SPIKE_SHARE * peak
+    };
+    let mut all = (1..values.len() - 1).filter(is_one).peekable();
+    let first = *all.peek()?;
+    Some(Defect::Spikes { count: all.count(), time: channel.times()[first] })
+}
+
+fn offset(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
+    let rest = own.offset.filter(|_| own.settings.offset == Removal::Nothing)?;
+    let share = rest.value.abs() / peak;
+    (rest.is_there() && share > OFFSET_SHARE).then_some(Defect::Offset {
+        value: rest.value,
+        error: rest.error,
+        share,
+        unit,
+    })
+}
+
+/// The change of the reading at rest before the pulse, or to what is read in the last fiftieth of the record, where
+/// that lies far behind the pulse.
+fn drift(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
+    let rest = own.offset?;
+    let change = 0.5 * rest.drift * (rest.window.1 - rest.window.0);
+    let (times, values) = (own.raw.times(), own.raw.values());
+    let last = values.len() - (values.len() / 50).max(EQUAL);
+    let behind = values[last..].iter().sum::<f64>() / (values.len() - last) as f64;
+    let is_far = times[last] > own.contact.window.1 + 2.0 * own.contact.length();
+    let to_end = if is_far { behind - rest.value } else { 0.0 };
+    let change = if rest.is_drifting && change.abs() > to_end.abs() { change } else { to_end };
+    let is_one = change.abs() > REST_SHARE * peak && change.abs() > 5.0 * rest.noise
+        || rest.is_drifting && change.abs() > OFFSET_SHARE * peak;
+    is_one.then_some(Defect::Drift { change, share: change.abs() / peak, unit })
+}
+
+fn of_pulse(own: &Analysis, peak: f64, unit: Dimension) -> Vec<Defect> {
+    let mut all = Vec::new();
+    let (from, to) = own.contact.window;
+    let inside = |time: &&f64| **time >= from && **time <= to;
+    let samples = own.raw.times().iter().filter(inside).count();
+    if samples < FEW && !own.contact.is_cut {
+        all.push(Defect::FewSamples { samples });
+    }
+    let is_odd = |range: (f64, f64), value: f64| !(range.0..=range.1).contains(&value);
+    if unit == Dimension::ACCELERATION && is_odd(ACCELERATIONS, peak) {
+        all.push(Defect::OddPeak { peak });
+    }
+    if is_odd(LENGTHS, own.contact.length()) {
+        all.push(Defect::OddLength { length: own.contact.length() });
+    }
+    all
+}
+
+fn of_filter(own: &Analysis) -> Vec<Defect> {
+    let Some(cfc) = own.settings.cfc else { return Vec::new() };
+    let (rate, class, least) = (own.rate(), cfc.class(), cfc.least_rate());
+    let mut all = Vec::new();
+    if rate < least * (1.0 - 1e-6) {
+        all.push(Defect::SlowForClass { rate, class, least });
+    }
+    if !cfc.is_standard() {
+        all.push(Defect::OddClass { class });
+    }
+    all
+}

@@ -1,0 +1,37 @@
+//! Measured channels of impact tests: from samples to numbers that can be signed.
+//!
+//! A [`Channel`] holds samples of one quantity over time, in SI units. [`Settings::analyse`] takes off an [`Offset`],
+//! filters by a channel frequency class ([`Cfc`]), and reads what [`Measure`]s say: peak, HIC, severity index, clips.
+//! Between samples a channel is a straight line and windows are continuous; [`Sampling`] says how far the signal
+//! itself may be from that line, and every [`Reading`] has the error that follows.
+//!
+//! The crate reads no files and prints nothing.
+
+mod analysis;
+mod cfc;
+mod channel;
+mod contact;
+mod defects;
+mod hic;
+pub mod iso_mme;
+mod measures;
+mod motion;
+mod offset;
+mod repeats;
+mod sampling;
+mod work;
+
+pub use analysis::{Analysis, Removal, Settings, SettingsFault};
+pub use cfc::{Cfc, CfcFault, Padding};
+pub use channel::{Channel, ChannelFault, Polarity, Steps};
+pub use contact::{CONTACT_LEVEL, Contact};
+pub use defects::Defect;
+pub use measures::{Measure, Reading, Reason};
+pub use motion::{Approach, Motion};
+pub use offset::Offset;
+pub use repeats::{Band, Repeated};
+pub use sampling::Sampling;
+pub use work::{Work, WorkFault};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,286 @@
+//! What is read off a channel, and how far each number may be off.
+
+use dashpot_analysis::{
+    Counted,
+    measures::{Exceedance, STANDARD_GRAVITY},
+};
+use dashpot_units::Dimension;
+
+use crate::{Approach, Channel, Contact, Motion, hic, sampling::Sampling};
+
+/// The time of a clip \[s\].
+const CLIP: f64 = 0.003;
+/// The exponent of the severity index.
+const EXPONENT: f64 = 2.5;
+
+/// What is read off a channel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Measure {
+    /// The largest magnitude.
+    Peak,
+    /// How long the magnitude stays at or above 5 % of the peak, about the peak \[s\].
+    ContactTime,
+    /// The integral of an acceleration over the whole record \[m/s\].
+    VelocityChange,
+    /// The integral of a force over the whole record \[N s\].
+    Impulse,
+    /// Head injury criterion over intervals up to 15 ms \[s\].
+    Hic15,
+    /// The same up to 36 ms.
+    Hic36,
+    /// The same over any interval.
+    Hic,
+    /// Gadd's severity index, `∫ (|a|/g0)^2.5 dt` \[s\].
+    SeverityIndex,
+    /// The largest magnitude that is exceeded for 3 ms, all times added up.
+    Clip3ms,
+    /// The same within one stretch.
+    Clip3msAtOnce,
+    /// The largest displacement since the blow began \[m\].
+    Displacement,
+    /// The speed at which a body comes back \[m/s\].
+    ReboundVelocity,
+    /// The part of the speed of approach with which it comes back.
+    Restitution,
+    /// The work done until the deepest point \[J\].
+    EnergyTaken,
+    /// What comes back of it \[J\].
+    EnergyReturned,
+    /// What does not \[J\].
+    EnergyAbsorbed,
+}
+
+/// Why a measure has no value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// The record is shorter than the time of a clip.
+    RecordTooShort,
+}
+
+impl Reason {
+    /// Its word for programs.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::RecordTooShort => "record-too-short",
+        }
+    }
+}
+
+/// A number read off a channel, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// What it is.
+    pub measure: Measure,
+    /// The value, on straight lines between samples and over continuous windows.
+    pub value: Result<f64, Reason>,
+    /// How far it may be off: by what samples do not tell, by the offset that was taken off, by the resolution.
+    pub error: f64,
+    /// When it is \[s\], where it is at one time.
+    pub time: Option<f64>,
+    /// From when to when it is \[s\], where it belongs to an interval.
+    pub window: Option<(f64, f64)>,
+    /// The value by the samples alone: windows from sample to sample, sums of trapezoids; `None` where it is the same.
+    pub on_samples: Option<f64>,
+}
+
+impl Reading {
+    pub(crate) fn new(measure: Measure, value: f64, error: f64) -> Self {
+        Self { measure, value: Ok(value), error, time: None, window: None, on_samples: None }
+    }
+
+    fn over(self, window: (f64, f64)) -> Self {
+        Self { window: Some(window), ..self }
+    }
+}
+
+impl Measure {
+    const READ: [Self; 10] = [
+        Self::Peak,
+        Self::ContactTime,
+        Self::VelocityChange,
+        Self::Impulse,
+        Self::Hic15,
+        Self::Hic36,
+        Self::Hic,
+        Self::SeverityIndex,
+        Self::Clip3ms,
+        Self::Clip3msAtOnce,
+    ];
+
+    /// The measures of every channel of this dimension; those of motion and work depend on what is known besides.
+    pub fn of(dimension: Dimension) -> impl Iterator<Item = Self> {
+        let is_one = move |own: &Self| match own {
+            Self::Peak | Self::ContactTime => true,
+            Self::Impulse => dimension == Dimension::FORCE,
+            _ => dimension == Dimension::ACCELERATION,
+        };
+        Self::READ.into_iter().filter(is_one)
+    }
+
+    /// Its word, the last part of its key.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Peak => "peak",
+            Self::ContactTime => "contact-time",
+            Self::VelocityChange => "velocity-change",
+            Self::Impulse => "impulse",
+            Self::Hic15 => "hic15",
+            Self::Hic36 => "hic36",
+            Self::Hic => "hic",
+            Self::SeverityIndex => "severity-index",
+            Self::Clip3ms => "clip-3ms",
+            Self::Clip3msAtOnce => "clip-3ms-at-once",
+            Self::Displacement => "peak-displacement",
+            Self::ReboundVelocity => "rebound-velocity",
+            Self::Restitution => "coefficient-of-restitution",
+            Self::EnergyTaken => "energy-taken",
+            Self::EnergyReturned => "energy-returned",
+            Self::EnergyAbsorbed => "energy-absorbed",
+        }
+    }
+
+    /// What it is in, of a channel of this dimension.
+    pub fn dimension(self, channel: Dimension) -> Dimension {
+        match self {
+            Self::Peak | Self::Clip3ms | Self::Clip3msAtOnce => channel,
+            Self::VelocityChange | Self::ReboundVelocity => Dimension::VELOCITY,
+            Self::Displacement => Dimension::LENGTH,
+            Self::Restitution => Dimension::NUMBER,
+            Self::EnergyTaken | Self::EnergyReturned | Self::EnergyAbsorbed => Dimension::ENERGY,
+            Self::Impulse => Dimension::IMPULSE,
+            _ => Dimension::TIME,
+        }
+    }
+
+    /// Whether it is an index that the field writes without a unit.
+    pub fn is_index(self) -> bool {
+        matches!(self, Self::Hic | Self::Hic15 | Self::Hic36 | Self::SeverityIndex)
+    }
+
+    fn cap(self) -> f64 {
+        match self {
+            Self::Hic15 => 0.015,
+            Self::Hic36 => 0.036,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// A channel as measures see it.
+pub(crate) struct Reader<'c> {
+    channel: &'c Channel,
+    sampling: Sampling<'c>,
+    /// How far every sample may be off in the same direction \[unit\].
+    floor: f64,
+    exceedance: Option<Exceedance>,
+}
+
+impl<'c> Reader<'c> {
+    pub(crate) fn new(channel: &'c Channel, floor: f64) -> Self {
+        let is_acceleration = channel.dimension() == Dimension::ACCELERATION;
+        let exceedance =
+            is_acceleration.then(|| Exceedance::new(&channel.signal(1.0), channel.span()));
+        Self { channel, sampling: Sampling::of(channel), floor, exceedance }
+    }
+
+    /// The motion of the body that the channel is on.
+    pub(crate) fn motion(&self, approach: Approach) -> Motion {
+        Motion::of(self.channel, &self.sampling, approach, self.contact(), self.floor)
+    }
+
+    pub(crate) fn contact(&self) -> Contact {
+        Contact::of(self.channel, &self.sampling, self.floor)
+    }
+
+    /// What a measure says; `None` of one of another dimension, of motion or of work.
+    pub(crate) fn read(&self, measure: Measure) -> Option<Reading> {
+        Some(match measure {
+            Measure::Peak => self.peak(),
+            Measure::ContactTime => {
+                let contact = self.contact();
+                Reading::new(measure, contact.length(), contact.error).over(contact.window)
+            }
+            Measure::VelocityChange | Measure::Impulse => self.integral(measure),
+            Measure::Hic15 | Measure::Hic36 | Measure::Hic => self.hic(measure),
+            Measure::SeverityIndex => self.severity(),
+            Measure::Clip3ms => self.clip(measure, Counted::Together)?,
+            Measure::Clip3msAtOnce => self.clip(measure, Counted::AtOnce)?,
+            _ => return None,
+        })
+    }
+
+    fn peak(&self) -> Reading {
+        let (at, value) = self.channel.largest();
+        let reading = Reading::new(Measure::Peak, value, self.sampling.overshoot() + self.floor);
+        Reading { time: self.channel.times().get(at).copied(), ..reading }
+    }
+
+    fn integral(&self, measure: Measure) -> Reading {
+        let span = self.channel.span();
+        let samples = self.channel.times().windows(2).zip(self.channel.values().windows(2));
+        let value = samples.map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum();
+        let error = self.sampling.area(span) + self.floor * (span.1 - span.0);
+        Reading::new(measure, value, error).over(span)
+    }
+
+    fn hic(&self, measure: Measure) -> Reading {
+        let found = hic::best(self.channel, STANDARD_GRAVITY, measure.cap());
+        let (from, to) = found.interval;
+        let length = to - from;
+        if length <= 0.0 {
+            return Reading::new(measure, 0.0, 0.0).over(found.interval);
+        }
+        let hidden = self.sampling.area(found.interval) + self.floor * length;
+        let mean = (found.value / length).powf(0.4);
+        // The true signal may have the larger mean, and with it the steeper criterion.
+        let growth = EXPONENT * (mean + hidden / STANDARD_GRAVITY / length).powf(1.5);
+        let error = growth * hidden / STANDARD_GRAVITY + 1e-9 * found.value;
+        let reading = Reading::new(measure, found.value, error).over(found.interval);
+        Reading { on_samples: Some(found.on_samples), ..reading }
+    }
+
+    fn severity(&self) -> Reading {
+        let (times, values) = (self.channel.times(), self.channel.values());
+        let (mut value, mut error, mut on_samples) = (0.0, 0.0, 0.0);
+        let index = |own: f64| (own.abs() / STANDARD_GRAVITY).powf(EXPONENT);
+        for at in 0..times.len() - 1 {
+            let step = times[at + 1] - times[at];
+            let ends = [values[at], values[at + 1]].map(|own| own / STANDARD_GRAVITY);
+            value += step * power_of_line(ends, EXPONENT);
+            on_samples += 0.5 * step * (index(values[at]) + index(values[at + 1]));
+            let hidden = self.sampling.hidden(at);
+            let most = ends[0].abs().max(ends[1].abs())
+                + (hidden.height.abs() + self.floor) / STANDARD_GRAVITY;
+            error += EXPONENT * most.powf(EXPONENT - 1.0) * (hidden.area + self.floor * step)
+                / STANDARD_GRAVITY;
+        }
+        let reading = Reading::new(Measure::SeverityIndex, value, error).over(self.channel.span());
+        Reading { on_samples: Some(on_samples), ..reading }
+    }
+
+    fn clip(&self, measure: Measure, counted: Counted) -> Option<Reading> {
+        let span = self.channel.span();
+        let exceedance = self.exceedance.as_ref()?;
+        let reading = Reading::new(measure, 0.0, 0.0);
+        if span.1 - span.0 < CLIP {
+            return Some(Reading { value: Err(Reason::RecordTooShort), ..reading });
+        }
+        let level = |duration: f64| exceedance.level(duration, counted).value;
+        let value = level(CLIP);
+        let shift = self.sampling.passages(value, span);
+        let apart = [CLIP - shift, CLIP + shift].map(|own| (level(own.max(0.0)) - value).abs());
+        Some(Reading::new(measure, value, apart[0].max(apart[1]) + self.floor))
+    }
+}
+
+/// The mean of `|s|^n` over a line with these values at its ends.
+fn power_of_line(ends: [f64; 2], n: f64) -> f64 {
+    let [one, other] = ends;
+    let whole = |own: f64| own.abs().powf(n + 1.0) * own.signum();
+    let apart = other - one;
+    if apart.abs() <= 1e-4 * (one + other).abs() {
+        return (0.5 * (one + other).abs()).powf(n);
+    }
+    (whole(other) - whole(one)) / ((n + 1.0) * apart)
+}

@@ -1,0 +1,100 @@
+//! The reading of a sensor at rest, from the record before the pulse.
+
+use crate::Channel;
+
+/// Parts of the peak at which a pulse has begun for certain, and by which its steepness is judged.
+const BEGUN: f64 = 0.05;
+const RISEN: f64 = 0.5;
+/// What scatters by more than this part of the peak is not at rest.
+const RESTLESS: f64 = 0.03;
+/// Fewer samples before the pulse tell no offset.
+const FEWEST: usize = 8;
+/// Parts into which the record before the pulse is divided.
+const BLOCKS: usize = 8;
+
+/// What a channel reads at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Offset {
+    /// The mean before the pulse, in SI units.
+    pub value: f64,
+    /// How far the reading at rest during the pulse may be from it: twice the standard error of the mean of blocks,
+    /// the change from the first to the second half, and half of the resolution where no noise blurs it.
+    pub error: f64,
+    /// From when to when the mean is taken \[s\].
+    pub window: (f64, f64),
+    /// Samples in it.
+    pub samples: usize,
+    /// Standard deviation of a sample.
+    pub noise: f64,
+    /// Change from the first half of the window to the second, per time \[unit/s\].
+    pub drift: f64,
+    /// Whether the change is more than the noise explains.
+    pub is_drifting: bool,
+}
+
+impl Offset {
+    /// The offset of a channel; `None` where fewer than eight samples stand before the pulse, or they are not at rest.
+    ///
+    /// The record before the pulse ends as long before the first passage of 5 % of the peak as it takes from there
+    /// to 50 %, so that a gentle beginning is none of it.
+    pub fn before_pulse(channel: &Channel) -> Option<Self> {
+        let (times, values) = (channel.times(), channel.values());
+        // The peak is counted from a first guess, which a large offset spoils otherwise.
+        let guess = median(&values[..values.len().div_ceil(50)]);
+        let far = |value: f64| (value - guess).abs();
+        let peak = values.iter().copied().map(far).fold(0.0, f64::max);
+        let top = values.iter().position(|own| far(*own) >= peak)?;
+        let back = |level: f64, from: usize| {
+            (0..from).rev().find(|&at| far(values[at]) < level * peak).map(|at| at + 1)
+        };
+        let risen = back(RISEN, top)?;
+        let begun = back(BEGUN, risen)?;
+        let rise = times[risen] - times[begun];
+        let end = times[begun] - rise.max(times[begun] - times[begun - 1]);
+        let count = times.partition_point(|time| *time <= end);
+        if count < FEWEST {
+            return None;
+        }
+        let own = Self::of(&times[..count], &values[..count], channel.resolution());
+        (own.noise <= RESTLESS * peak).then_some(own)
+    }
+
+    fn of(times: &[f64], values: &[f64], resolution: f64) -> Self {
+        let count = values.len();
+        let value = mean(values);
+        let spread = values.iter().map(|own| (own - value).powi(2)).sum::<f64>();
+        let noise = (spread / (count - 1) as f64).sqrt();
+        let blocks: Vec<f64> = values.chunks(count.div_ceil(BLOCKS)).map(mean).collect();
+        let of_blocks = blocks.iter().map(|own| (own - value).powi(2)).sum::<f64>();
+        let blocked = (blocks.len() as f64).max(2.0);
+        let standard = (of_blocks / (blocked * (blocked - 1.0))).sqrt();
+        let [first, second] = [mean(&values[..count / 2]), mean(&values[count / 2..])];
+        let change = second - first;
+        let length = times[count - 1] - times[0];
+        let coarse = if noise < resolution { 0.5 * resolution } else { 0.0 };
+        Self {
+            value,
+            error: 2.0 * standard + change.abs() + coarse,
+            window: (times[0], times[count - 1]),
+            samples: count,
+            noise,
+            drift: 2.0 * change / length,
+            is_drifting: change.abs() > (5.0 * noise / (count as f64).sqrt()).max(coarse * 2.0),
+        }
+    }
+
+    /// Whether it is more than its error.
+    pub fn is_there(&self) -> bool {
+        self.value.abs() > self.error
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
