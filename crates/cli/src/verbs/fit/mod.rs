@@ -19,7 +19,7 @@ use self::{
     words::{Units, branches, comments, determined, ends, notes, records, warnings},
 };
 use crate::{
-    args::{Switch, ValueArguments, share, signed_time},
+    args::{Switch, ValueArguments, share, shift},
     error::{CliError, Status},
     input::Input,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
@@ -55,7 +55,7 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "PART", default_value = "1%", value_parser = share)]
     error: f64,
     /// Leaves out rows behind this time of the file.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     until: Option<f64>,
     /// Whether the clock of a record may be off: against the run, or of what answered against what was done.
     #[arg(long, value_name = "WHEN", default_value = "on")]

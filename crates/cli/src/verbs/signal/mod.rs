@@ -24,7 +24,7 @@ use self::{
     read::{Record, Wanted},
 };
 use crate::{
-    args::{frequency_class, signed_time},
+    args::{frequency_class, shift},
     error::{CliError, Status},
     folder::{Folder, Staged},
     output::{Study, Text, emit},
@@ -68,10 +68,10 @@ pub(crate) struct SignalArguments {
     #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
     padding: String,
     /// Reads the record from this time on, behind the filter.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     from: Option<f64>,
     /// Reads it up to this time.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = signed_time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     to: Option<f64>,
     /// Speed of approach of the body that an accelerometer is on, at the beginning of the record: gives its displacement,
     /// its rebound and the coefficient of restitution.
