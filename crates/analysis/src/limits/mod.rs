@@ -7,8 +7,8 @@ use dashpot_units::Unit;
 
 use crate::measures::{MEASURES, MeasureEntry};
 
-/// A limit on a measure.
-#[derive(Debug, Clone, PartialEq)]
+/// A limit on a measure. The unit in which it was written makes no difference between two of them.
+#[derive(Debug, Clone)]
 pub struct Limit {
     /// Key of the measure, for instance `head.peak-acceleration`.
     pub key: String,
@@ -153,6 +153,12 @@ impl Bound {
             _ if room < -error => Judgement::Fail,
             _ => Judgement::Undecided(Reason::Error),
         }
+    }
+}
+
+impl PartialEq for Limit {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_same(other) && self.from == other.from
     }
 }
 

@@ -1,6 +1,6 @@
 //! Preloads that nothing holds as a run begins.
 
-use dashpot_network::{PrimitiveOutputs, elements::Law};
+use dashpot_network::{NodeOutputs, PrimitiveOutputs, elements::Law};
 
 use crate::{
     Solution, Warning,
@@ -46,6 +46,12 @@ pub(super) fn loose(solution: &Solution<'_>) -> Vec<Warning> {
     found
 }
 
+/// Whether a node moves as a run begins: an impactor, or a support that is driven.
+fn moves(solution: &Solution<'_>, node: &NodeOutputs) -> bool {
+    let driven = node.velocity.filter(|&own| !node.free && solution.keeps(own));
+    node.is_impactor() || driven.is_some_and(|own| solution.signal(own).value(0.0) != 0.0)
+}
+
 /// The force \[N\] that begins to move a body as a run begins, but for what moves there already; `None` of a body that
 /// does not follow its forces, and where something switches that may hold it.
 fn unbalanced(
@@ -68,7 +74,7 @@ fn unbalanced(
         }
         let force =
             solution.signal(connection.force.filter(|&own| solution.keeps(own))?).value(0.0);
-        if solution.rate_of(connection).value(0.0) != 0.0 {
+        if connection.between.iter().any(|end| moves(solution, &assembly.nodes[end.index()])) {
             let held_back = if connection.name == element { push } else { 0.0 };
             left -= sign * (force - held_back);
         }

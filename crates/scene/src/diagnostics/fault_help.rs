@@ -40,6 +40,11 @@ pub(crate) fn unreadable_help(error: &UnitError, expected: Dimension) -> String 
         UnitError::Malformed { text } if fits(&text.replace(['.', '-'], " "), expected) => {
             format!("did you mean `{}`? {like}", text.replace(['.', '-'], " "))
         }
+        UnitError::Malformed { text } if text.starts_with('^') => {
+            format!(
+                "behind a power stands `*`: write `* 1` before the unit, or compute the number; {like}"
+            )
+        }
         _ => format!("{} is expected, {like}", described(expected)),
     }
 }

@@ -1,6 +1,6 @@
 //! Diagnostics as text for a terminal.
 
-use std::{fmt, ops::Range};
+use std::{fmt, ops::Range, ptr};
 
 use annotate_snippets::{
     AnnotationKind, Group, Level, Renderer, Snippet, renderer::DEFAULT_TERM_WIDTH,
@@ -34,18 +34,25 @@ impl Diagnostics {
     pub fn render_within(&self, color: bool, width: usize) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));
+        let kinds = self.by_kind();
         let mut shown: Vec<String> = Vec::new();
-        for alike in self.by_kind() {
-            let most = if alike.len() > SHOWN + 1 { SHOWN } else { alike.len() };
-            let (first, others) = alike.split_at(most);
-            shown.extend(first.iter().map(|diagnostic| one(&renderer, diagnostic, width)));
-            shown.extend((!others.is_empty()).then(|| likewise(others)));
+        let mut of_kind = vec![0; kinds.len()];
+        for own in &self.list {
+            let is_it = |kind: &Vec<&Diagnostic>| kind.iter().any(|other| ptr::eq(*other, own));
+            let Some(kind) = kinds.iter().position(is_it) else { continue };
+            of_kind[kind] += 1;
+            let others = kinds[kind].split_at_checked(SHOWN).map_or(&[][..], |own| own.1);
+            let is_told = others.len() > 1;
+            if of_kind[kind] <= SHOWN || !is_told {
+                shown.push(one(&renderer, own, width));
+            }
+            shown.extend((of_kind[kind] == SHOWN && is_told).then(|| likewise(others)));
         }
         shown.extend((self.omitted > 0).then(|| format!("and {} more", self.omitted)));
         shown.join("\n\n")
     }
 
-    /// Faults of one kind in one file together, in the order of the first ones.
+    /// Faults of one kind in one file together, each in the order of the text.
     fn by_kind(&self) -> Vec<Vec<&Diagnostic>> {
         let mut kinds: Vec<Vec<&Diagnostic>> = Vec::new();
         for own in &self.list {

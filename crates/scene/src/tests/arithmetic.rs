@@ -84,7 +84,8 @@ fn faults_of_arithmetic_point_at_the_part_that_is_wrong() {
 #[test]
 fn units_and_scatter_in_the_wrong_place_have_a_remedy() {
     for (new, help) in [
-        ("2^3 kN/m", "write `* 1 kN` in place of `kN`"),
+        ("2^3 kN/m", "write `* 1` before the unit, or compute the number"),
+        ("(2 + 1) kN/m", "write `* 1 kN` in place of `kN`"),
         ("E * area / thickness ± 5 %", "give it to one under [values], and compute with its name"),
     ] {
         let shown = messages(&SCENE.replacen("K / 2 + 10 kN/m", new, 1));

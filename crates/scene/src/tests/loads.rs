@@ -278,7 +278,7 @@ fn faults_of_a_file_name_the_file_the_line_the_key_and_the_value() {
     has(&shown, &["--> lib/pulse.csv:3:4", "`x5` is not a number", "in column `force`"]);
     let shown = told(name, "time [ms], force [kN]\n0, 0\n1, 5\n2, 3\n1.5, 4\n");
     has(&shown, &["--> lib/pulse.csv:5:1", "the time 1.5 stands after 2: times never fall"]);
-    has(&shown, &["note: the file is named in line 7 of lib/scene.toml"]);
+    has(&shown, &["note: in column `time`; the file is named in line 7 of lib/scene.toml"]);
     has(&told(name, "0,0\n1;2\n"), &["--> lib/pulse.csv:2:1", "`1;2` is not a number"]);
     has(&told(name, "0;0.5\n1;2,5\n"), &["`2,5` has a comma", "help: write `2.5`"]);
     has(&told(name, "0\n1\n"), &["the file has one column", "semicolons, tabs, commas or spaces"]);
