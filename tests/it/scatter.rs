@@ -284,7 +284,7 @@ fn designs_side_by_side_have_their_ranges_and_probabilities() {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     // One standard deviation above the mean.
     assert!(
-        words.contains("K=25 ± 2.5 kN/m: pass, 1.581 kN, margin 4.7 %, probability to pass 84.1 %"),
+        words.contains("K=25 ± 2.5 kN/m: pass, 1581 N, margin 4.7 %, probability to pass 84.1 %"),
         "{words}"
     );
     assert_eq!(words.matches("2000 designs (Latin hypercube, seed 1)").count(), 2, "{words}");
