@@ -3,7 +3,7 @@
 use dashpot_analysis::{Bound, Judgement, measures::STANDARD_GRAVITY};
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
-use dashpot_signal::{Analysis, Measure, Reading, Repeated};
+use dashpot_signal::{Analysis, CONTACT_LEVEL, Measure, Reading, Repeated};
 use dashpot_units::si_unit;
 
 use super::{Group, Signal, Signals, limits::Verdict};
@@ -142,7 +142,8 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
     };
     let turned = if own.settings.is_inverted { ", after its signs were turned" } else { "" };
     let polarity = format!("its peak is {}{turned}", own.polarity.word());
-    vec![filter, offset, polarity]
+    let contact = format!("contact is where it exceeds {} of its peak", share(CONTACT_LEVEL));
+    vec![filter, offset, polarity, contact]
 }
 
 /// All that was read off a channel.
