@@ -14,6 +14,7 @@ mod by_hand;
 #[path = "../equal_error/cpu.rs"]
 mod cpu;
 mod foam;
+mod formulas;
 #[path = "../equal_error/impact.rs"]
 mod impact;
 mod runs;
@@ -222,6 +223,9 @@ fn main() {
     }
     if is_asked_for("runs") {
         runs::runs();
+    }
+    if is_asked_for("formulas") {
+        formulas::formulas();
     }
 }
 

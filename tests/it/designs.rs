@@ -80,6 +80,38 @@ fn variants_are_designs_besides_the_scene_as_it_is() {
 }
 
 #[test]
+fn a_variant_has_the_name_that_it_is_given() {
+    let (_folder, [soft, _]) = written();
+    let variants = ["--variant", "thin: pad.thickness=6 cm, K=36 kN/m", "--variant", "K=49 kN/m"];
+    let all = json(&[&["run", &soft, "--json"][..], &variants].concat());
+    let runs = all["runs"].as_array().unwrap();
+    let names: Vec<&Value> = runs.iter().map(|run| &run["scene"]["name"]).collect();
+    assert_eq!(names, ["soft", "thin", "K=49 kN/m"]);
+    // 5 √(4 K).
+    let peak = runs[1]["measures"]["pad.peak-force"]["value"].as_f64().unwrap();
+    assert!((peak - 5.0 * 144e3_f64.sqrt()).abs() < 1e-9 * peak, "{peak}");
+    let output = run(&["run", &soft, "--variant", ": K=36 kN/m"]);
+    assert!(code(&output) == 2 && err(&output).contains("no name before the colon"));
+}
+
+#[test]
+fn a_remark_names_the_designs_that_it_is_of() {
+    let (folder, [soft, _]) = written();
+    let slow = scene("slow", "25 kN/m").replace("energy = \"50 J\"", "energy = \"8 J\"");
+    let slow = file(&folder, "slow.toml", &slow).to_str().unwrap().to_owned();
+    // 4 kg g over 8 cm is 3.138 J.
+    let told =
+        "gravity is off: if the blow goes down, its weight adds up to 3.14 J over the thickness";
+    let of_both = words(&err(&run(&["run", &soft, &slow])));
+    assert!(of_both.contains(&format!("soft: node `head`: {told}, 6.3 % of the")), "{of_both}");
+    assert!(of_both.contains(&format!("slow: node `head`: {told}, 39.2 % of the")), "{of_both}");
+    let alone = words(&err(&run(&["run", &slow])));
+    assert!(alone.contains(&format!("note: node `head`: {told}")), "{alone}");
+    let heavy = ["--set", "head.energy=200 J"];
+    assert!(!err(&run(&[&["run", &slow][..], &heavy].concat())).contains("gravity is off"));
+}
+
+#[test]
 fn designs_that_differ_in_a_number_and_more_have_its_order_in_colours_and_the_rest_in_patterns() {
     let (folder, [soft, _]) = written();
     let results = folder.path().join("results");

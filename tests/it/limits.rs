@@ -378,3 +378,24 @@ fn a_limit_of_the_command_line_tells_of_a_constant_area_as_one_of_the_scene_does
     assert_eq!(notes("run", &bare, &by_flag), 1);
     assert_eq!(notes("run", &limited, &by_flag), 1);
 }
+
+#[test]
+fn a_sweep_tells_where_a_limit_is_crossed_and_which_number_moves_nothing() {
+    let folder = TempDir::new().unwrap();
+    let thick = "spring = \"25 kN/m\", thickness = \"8 cm\"";
+    let text = scene("pad.peak-force = \"2 kN\"").replace("spring = \"25 kN/m\"", thick);
+    let path = file(&folder, "thick.toml", &text).to_str().unwrap().to_owned();
+    let told = |vary: &[&str]| {
+        let output = run(&[&["sweep", &path, "--table", "always"][..], vary].concat());
+        (out(&output) + &err(&output)).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // V √(K m) = 5 √(4 K) is 2 kN at 40 kN/m; a straight line from 39 to 42 kN/m meets it at
+    // 39 + 3 (2000 − 1974.84)/(2049.39 − 1974.84) kN/m.
+    let text = told(&["--vary", "pad.spring=30..42 kN/m,5"]);
+    assert!(text.contains("from 30 kN/m to 39 kN/m (crossed near 40.01 kN/m)"), "{text}");
+    let text = told(&["--vary", "pad.thickness=4..8 cm,3"]);
+    let why = "`pad.thickness` moves none of these numbers: a law in N, N/m and N s/m is the same";
+    assert!(text.contains(why), "{text}");
+    let both = told(&["--vary", "pad.spring=30..42 kN/m,3", "--vary", "pad.thickness=7..8 cm,2"]);
+    assert!(both.contains(why) && !both.contains("`pad.spring` moves"), "{both}");
+}

@@ -42,14 +42,19 @@ pub(crate) struct ValueArguments {
 /// Values of one design.
 #[derive(Debug, Clone)]
 pub(crate) struct Variant {
-    /// The argument, which is its name.
-    pub(crate) text: String,
+    pub(crate) name: String,
     pub(crate) set: Vec<(String, String)>,
 }
 
+/// `thick: liner.thickness=28 mm, K=60 kN/m`; without a name before a colon the whole text is its name.
 pub(crate) fn variant(text: &str) -> Result<Variant, String> {
-    let set = text.split(',').map(assignment).collect::<Result<_, _>>()?;
-    Ok(Variant { text: text.trim().to_owned(), set })
+    let named = text.split_once(':').filter(|own| !own.0.contains(['=', '"']));
+    let (name, values) = named.unwrap_or((text, text));
+    if name.trim().is_empty() {
+        return Err("there is no name before the colon; write \"thick: K=60 kN/m\"".to_owned());
+    }
+    let set = values.split(',').map(assignment).collect::<Result<_, _>>()?;
+    Ok(Variant { name: name.trim().to_owned(), set })
 }
 
 /// Which limits besides those of the scene.

@@ -3,16 +3,19 @@
 use crate::{Expression, Function, expression::Term, expression::power};
 
 /// Several expressions, compiled to be evaluated together many times.
+///
+/// Every value has a register: first the numbers, which are there from the beginning, then one for each step.
 #[derive(Debug, Clone)]
 pub struct Program {
+    numbers: Vec<f64>,
     steps: Vec<Step>,
-    /// The steps whose values are wanted.
+    /// The registers whose values are wanted.
     outputs: Vec<u32>,
 }
 
+/// What a step makes of the values of registers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Step {
-    Number(f64),
     Variable(usize),
     Negative(u32),
     Sum([u32; 2]),
@@ -27,13 +30,15 @@ enum Step {
     Positive(u32),
 }
 
-/// So many steps are kept without an allocation.
+/// So many registers need no allocation, and so many little time to be cleared.
 const ON_STACK: usize = 48;
+const FEW: usize = 12;
 
 impl Program {
     /// The program of these expressions.
-    pub fn of<'e>(expressions: impl IntoIterator<Item = &'e Expression>) -> Self {
-        let mut own = Self { steps: Vec::new(), outputs: Vec::new() };
+    pub fn of<'e>(expressions: impl IntoIterator<Item = &'e Expression> + Clone) -> Self {
+        let mut own = Self { numbers: Vec::new(), steps: Vec::new(), outputs: Vec::new() };
+        expressions.clone().into_iter().for_each(|expression| own.add_numbers(expression));
         for expression in expressions {
             let output = own.add(expression);
             own.outputs.push(output);
@@ -41,9 +46,23 @@ impl Program {
         own
     }
 
+    fn add_numbers(&mut self, expression: &Expression) {
+        if let Term::Number(value) = *expression.0
+            && self.place_of(value).is_none()
+        {
+            self.numbers.push(value);
+        }
+        expression.parts().iter().for_each(|part| self.add_numbers(part));
+    }
+
+    fn place_of(&self, number: f64) -> Option<usize> {
+        self.numbers.iter().position(|own| own.to_bits() == number.to_bits())
+    }
+
+    /// The register of an expression.
     fn add(&mut self, expression: &Expression) -> u32 {
         let step = match &*expression.0 {
-            Term::Number(value) => Step::Number(*value),
+            Term::Number(value) => return register(self.place_of(*value)),
             Term::Variable(at) => Step::Variable(*at),
             Term::Negative(inner) => Step::Negative(self.add(inner)),
             Term::Sum(parts) => Step::Sum(self.both(parts)),
@@ -62,7 +81,7 @@ impl Program {
             self.steps.push(step);
             self.steps.len() - 1
         });
-        u32::try_from(at).unwrap_or(u32::MAX)
+        register(Some(self.numbers.len() + at))
     }
 
     fn both(&mut self, [left, right]: &[Expression; 2]) -> [u32; 2] {
@@ -71,10 +90,10 @@ impl Program {
 
     /// The values of the expressions at these variables, into `values`, in their order.
     pub fn evaluate(&self, variables: &[f64], values: &mut [f64]) {
-        if self.steps.len() <= ON_STACK {
-            self.run(variables, &mut [0.0; ON_STACK], values);
-        } else {
-            self.run(variables, &mut vec![0.0; self.steps.len()], values);
+        match self.numbers.len() + self.steps.len() {
+            0..=FEW => self.run(variables, &mut [0.0; FEW], values),
+            0..=ON_STACK => self.run(variables, &mut [0.0; ON_STACK], values),
+            all => self.run(variables, &mut vec![0.0; all], values),
         }
     }
 
@@ -86,10 +105,11 @@ impl Program {
     }
 
     fn run(&self, variables: &[f64], found: &mut [f64], values: &mut [f64]) {
+        let first = self.numbers.len();
+        found[..first].copy_from_slice(&self.numbers);
         for (at, step) in self.steps.iter().enumerate() {
             let of = |own: u32| found[own as usize];
-            found[at] = match *step {
-                Step::Number(value) => value,
+            found[first + at] = match *step {
                 Step::Variable(at) => variables.get(at).copied().unwrap_or(f64::NAN),
                 Step::Negative(inner) => -of(inner),
                 Step::Sum([left, right]) => of(left) + of(right),
@@ -108,4 +128,9 @@ impl Program {
             *value = found[*output as usize];
         }
     }
+}
+
+/// A register by its place; no text of a formula is so long that there were none.
+fn register(place: Option<usize>) -> u32 {
+    place.and_then(|place| u32::try_from(place).ok()).unwrap_or(u32::MAX)
 }

@@ -81,11 +81,11 @@ impl Judgement {
     }
 
     /// The same of a run about which there is a `doubt`: nothing is kept there for certain. What is exceeded stays
-    /// so.
+    /// so, and of a run that is cut short the doubt comes first: a longer one would not take it away.
     #[must_use]
     pub fn doubted(self, doubt: Option<Reason>) -> Self {
         match (self, doubt) {
-            (Self::Pass, Some(doubt)) => Self::Undecided(doubt),
+            (Self::Pass | Self::Undecided(Reason::Cut), Some(doubt)) => Self::Undecided(doubt),
             (own, _) => own,
         }
     }
@@ -251,6 +251,7 @@ mod tests {
             assert_eq!(Pass.doubted(Some(doubt)), Undecided(doubt));
             assert_eq!(Fail.doubted(Some(doubt)), Fail);
             assert_eq!(Undecided(Reason::Error).doubted(Some(doubt)), Undecided(Reason::Error));
+            assert_eq!(Undecided(Reason::Cut).doubted(Some(doubt)), Undecided(doubt));
         }
     }
 

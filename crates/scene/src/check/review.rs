@@ -20,7 +20,7 @@ use crate::{
         library::tables::{file_named, is_table},
         source::Place,
     },
-    units::format_short,
+    units::{STANDARD_GRAVITY, format_short},
 };
 
 /// Warns of what is odd in a scene that has been read without errors.
@@ -96,18 +96,31 @@ fn deep_stops(reading: &Reading<'_>, network: &Network) {
     }
 }
 
-/// What is left out of a drop where gravity is off.
+/// A weight that adds more than this part to the energy of a blow is told of.
+const HEAVY: f64 = 0.02;
+
+/// What is left out of a drop, or of a blow that may go down, where gravity is off.
 pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
     if network.effects().iter().any(|effect| effect.gravity().is_some()) {
         return Vec::new();
     }
     let mut notes = Vec::new();
-    for (_, node) in network.nodes() {
-        let Start::Drop(height) = node.start else { continue };
-        if height > 0.0 && node.mass > 0.0 {
-            let (subject, what) = (format!("node `{}`", node.name), Remark::Weightless(height));
-            notes.push(ModelNote { subject, what, until: None });
-        }
+    for (id, node) in network.nodes().filter(|own| own.1.mass > 0.0) {
+        let what = match node.start {
+            Start::Drop(height) if height > 0.0 => Remark::Weightless(height),
+            Start::Velocity(speed) if speed > 0.0 => {
+                let pads = network.connections().iter().filter(|own| own.between.contains(&id));
+                let thickness = pads.filter_map(|own| own.thickness).fold(0.0, f64::max);
+                let energy = node.mass * STANDARD_GRAVITY * thickness;
+                let part = energy / (0.5 * node.mass * speed * speed);
+                if part < HEAVY {
+                    continue;
+                }
+                Remark::WeightLeftOut { energy, part }
+            }
+            _ => continue,
+        };
+        notes.push(ModelNote { subject: format!("node `{}`", node.name), what, until: None });
     }
     notes
 }

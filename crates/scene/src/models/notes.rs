@@ -39,6 +39,13 @@ pub enum Remark {
     SharedName(String),
     /// A node is dropped from a height \[m\], and has no weight.
     Weightless(f64),
+    /// A node strikes with gravity off, where its weight is not little.
+    WeightLeftOut {
+        /// What the weight adds over the thickness of the pad, if the blow goes down \[J\].
+        energy: f64,
+        /// The same in parts of the energy with which it strikes.
+        part: f64,
+    },
     /// The curve of a law is not that of the rows of its file.
     Curve(CurveChange),
     /// The area of a pad is constant where a standard loads one that grows.
@@ -73,6 +80,7 @@ impl Remark {
             Self::Shift { .. } => "shift",
             Self::SharedName(_) => "shared-name",
             Self::Weightless(_) => "weightless",
+            Self::WeightLeftOut { .. } => "weight-left-out",
             Self::Curve(_) => "curve",
             Self::ConstantArea { .. } => "constant-area",
             Self::LeftOut(_) => "lines-left-out",
@@ -105,6 +113,13 @@ impl fmt::Display for Remark {
                  weighs nothing, and never falls back on what it has left; `gravity = {{}}` under \
                  [effects] gives it its weight",
                 format_short(*height, Dimension::LENGTH, 4)
+            ),
+            Self::WeightLeftOut { energy, part } => write!(
+                f,
+                "gravity is off: if the blow goes down, its weight adds up to {} over the thickness, {:.1} % of \
+                 the energy; `gravity = {{}}` under [effects] counts it",
+                format_short(*energy, Dimension::ENERGY, 3),
+                100.0 * part
             ),
             Self::Curve(change) => write!(f, "{change}"),
             Self::ConstantArea { standard, dome } => {

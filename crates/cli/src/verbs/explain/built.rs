@@ -2,8 +2,8 @@
 
 use dashpot_dae::UnknownKind;
 use dashpot_network::{
-    Node, NodeId, NodeOutputs, PadOutputs, Situation, Start, Support, elements::Law,
-    segments::resolved,
+    Node, NodeId, NodeOutputs, PadOutputs, PrimitiveOutputs, Situation, Start, Support,
+    elements::Law, segments::resolved,
 };
 use dashpot_plot::Table;
 use dashpot_scene::{Scene, units::si_unit};
@@ -123,9 +123,17 @@ fn parts(scene: &Scene) -> Table {
             Law::Rigid | Law::Nonlinear { .. } | Law::Phased => primitive.element.kind().to_owned(),
         };
         let phases = primitive.element.phases().map(|phase| phase.names().join(" / "));
-        vec![own, primitive.name.clone(), phases.unwrap_or_default()]
+        let words: Vec<String> = phases.into_iter().chain(extent(primitive)).collect();
+        vec![own, primitive.name.clone(), words.join(", ")]
     });
     rows("Parts that take part", described)
+}
+
+/// How far a law holds in compression: `up to 13.5 mm and 34.9 kN`.
+fn extent(primitive: &PrimitiveOutputs) -> Option<String> {
+    let (_, most) = primitive.element.range().filter(|own| own.1.is_finite() && own.1 > 0.0)?;
+    let force = primitive.element.force(most, 0.0);
+    Some(format!("up to {} and {}", quantity(most, "m", 4), quantity(force, "N", 4)))
 }
 
 fn loads(scene: &Scene) -> Table {

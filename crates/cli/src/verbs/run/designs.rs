@@ -7,7 +7,7 @@ use dashpot_plot::{
     Report, ReportFigure, RunSeries, Table,
     figures::{FIGURES, FORCE_TIME},
 };
-use dashpot_scene::Scene;
+use dashpot_scene::{ModelNote, Scene};
 use serde::Serialize;
 
 use super::{
@@ -34,7 +34,7 @@ use crate::{
     origin,
     output::{Study, Text, VERSION, list, object},
     said,
-    terminal::{Terminal, WIDTH},
+    terminal::{Terminal, WIDTH, note},
     text::indented,
 };
 
@@ -83,13 +83,30 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
         all.push(Named { name: own.unwrap_or_else(|| base.name.clone()), ..base });
         for variant in &arguments.variant {
             let name = match paths.len() {
-                1 => variant.text.clone(),
-                _ => format!("{name}, {}", variant.text),
+                1 => variant.name.clone(),
+                _ => format!("{name}, {}", variant.name),
             };
             all.push(read(name, [&arguments.values.set[..], &variant.set].concat())?);
         }
     }
     Ok(all)
+}
+
+/// Says what there is to say about the models of all scenes, each remark once, and of which designs where not of all.
+pub(super) fn print_remarks(scenes: &[Named]) {
+    let mut all: Vec<(&ModelNote, Vec<&str>)> = Vec::new();
+    for own in scenes {
+        for remark in &own.scene.notes {
+            match all.iter_mut().find(|known| known.0 == remark) {
+                Some(known) => known.1.push(&own.name),
+                None => all.push((remark, vec![&own.name])),
+            }
+        }
+    }
+    for (remark, names) in all {
+        let of = if names.len() == scenes.len() { String::new() } else { names.join("; ") + ": " };
+        note(&format!("{of}{}: {}", remark.subject, remark.what));
+    }
 }
 
 /// Tells of every file that cannot be read, before any is solved.

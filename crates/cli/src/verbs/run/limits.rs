@@ -42,7 +42,7 @@ pub(super) fn short(run: &RunReport, judged: &Judged<'_>) -> String {
     };
     let value = judged.measure.map(|own| value(own, judged));
     let value = value.map_or(String::new(), |value| format!(", {value}"));
-    let margin = judged.margin().map(|margin| format!(", margin {}", percent_signed(margin)));
+    let margin = margin(judged).map(|margin| format!(", margin {margin}"));
     let chance = scatter::chance(judged).map_or(String::new(), |own| format!(", {own}"));
     let doubt = beyond(run, judged).or_else(|| outside(run, judged));
     let doubt = doubt.map_or(String::new(), |own| format!(", {own}"));
@@ -52,9 +52,7 @@ pub(super) fn short(run: &RunReport, judged: &Judged<'_>) -> String {
 fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let limit = judged.limit;
     let value = judged.measure.map_or("is not reported".to_owned(), |own| value(own, judged));
-    let margin = judged
-        .margin()
-        .map_or(String::new(), |margin| format!("; margin {}", percent_signed(margin)));
+    let margin = margin(judged).map_or(String::new(), |margin| format!("; margin {margin}"));
     let mean = match judged.sampled {
         Some(_) => "; judged by the mean of the sample",
         None if limit.of_mean => "; one run stands for the mean of the tests",
@@ -68,6 +66,12 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let doubt = beyond(run, judged).or_else(|| outside(run, judged));
     let doubt = doubt.map_or(String::new(), |own| format!("; {own}"));
     format!("{} {value}, {stated}{margin}{doubt}{chance}{bare}{mean}{advice}", limit.key)
+}
+
+/// What is left to the bound; nothing where the value hangs on what is not known.
+fn margin(judged: &Judged<'_>) -> Option<String> {
+    let is_known = judged.judgement != Judgement::Undecided(Reason::Beyond);
+    judged.margin().filter(|_| is_known).map(percent_signed)
 }
 
 /// What a limit hangs on that would be kept, where something is pressed further than is known of it.

@@ -27,7 +27,7 @@ use dashpot_plot::{
     RunSeries,
     figures::{FORCE_TIME, Figure},
 };
-use dashpot_scene::{ModelNote, Scene};
+use dashpot_scene::Scene;
 use serde::Serialize;
 
 use self::{
@@ -54,7 +54,6 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
-    operand::print_notes,
     output::{Study, Text, emit},
     progress::Bar,
     terminal::{Terminal, WIDTH},
@@ -94,9 +93,9 @@ pub(crate) struct RunArguments {
     scenes: Vec<PathBuf>,
     #[command(flatten)]
     values: ValueArguments,
-    /// A design besides each scene as it is: the same with these values of [values], such as
-    /// "K=80 kN/m" or "K=80 kN/m, C=2 kN s/m"; repeatable.
-    #[arg(long, value_name = "NAME=VALUE,…", value_parser = variant)]
+    /// A design besides each scene as it is: the same with these values, as `--set` takes them, such as
+    /// "K=80 kN/m, C=2 kN s/m", or with a name of its own "stiff: K=80 kN/m"; repeatable.
+    #[arg(long, value_name = "[NAME:] KEY=VALUE,…", value_parser = variant)]
     variant: Vec<Variant>,
     #[command(flatten)]
     limits: LimitArguments,
@@ -272,12 +271,9 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     }
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let mut answers = Vec::new();
-    let (mut noted, mut warned) = (Vec::new(), Vec::new());
+    let mut warned = Vec::new();
+    designs::print_remarks(&scenes);
     for Named { name, scene, values, set } in scenes {
-        let new = scene.notes.iter().filter(|own| !noted.contains(*own)).cloned();
-        let new: Vec<ModelNote> = new.collect();
-        print_notes(&new);
-        noted.extend(new);
         for text in undefined(&scene).unwrap_or_default() {
             if !warned.contains(&text) {
                 terminal.warn(&text);

@@ -4,9 +4,11 @@ mod best;
 mod figures;
 mod files;
 mod gradient;
+mod kept;
 mod page;
 mod points;
 mod titles;
+mod unmoved;
 mod varied;
 mod words;
 

@@ -7,7 +7,7 @@ use super::{
     Form, Swept,
     best::{best, best_table},
     figures::unit,
-    points,
+    kept, points,
     titles::{capital, quantity},
     words,
 };
@@ -46,7 +46,7 @@ pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String
     let count = swept.report.points();
     let what = if swept.varied.is_of_rows() { "design" } else { "point" };
     let mut lines = vec![format!("{} solved", counted(count, what))];
-    lines.extend(words::kept(swept));
+    lines.extend(kept::kept(swept));
     if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
         let word = if first.passes { "best" } else { "nearest to passing" };
         lines.push(format!("{word}: {}, {}", swept.at(first.point), first.margin_in_words()));

@@ -1,11 +1,14 @@
 //! The points of a sweep as a table for people: parameters in the units of the command line, measures with the
 //! digits that their errors justify.
 
-use dashpot_analysis::Judgement;
+use dashpot_analysis::{Judgement, sweep::SweepReport};
 use dashpot_plot::Table;
 
 use super::{Swept, figures, words};
-use crate::{numbers::digits, output::list};
+use crate::{
+    numbers::{Unit, digits},
+    output::list,
+};
 
 /// So many points are shown; of more the first designs of a list, and none of a grid, which figures show.
 const MOST_SHOWN: usize = 50;
@@ -20,38 +23,20 @@ const NONE: &str = "–";
 pub(super) fn table(swept: &Swept) -> (Table, usize) {
     let (report, variations) = (&swept.report, &swept.varied.variations);
     let axes = list((0..variations.len()).map(|at| swept.in_unit(at)));
-    let told = list(words::told(report).into_iter().map(|at| (at, figures::unit(report, at))));
-    let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
+    let told = told(report);
     let names = variations.iter().zip(&axes).map(|(own, (unit, _))| match unit.as_str() {
         "1" | "" => own.name.clone(),
         unit => format!("{}\n{unit}", own.name),
     });
-    let measures = told.iter().map(|(at, unit)| {
-        format!("{}\n{}", in_lines(&words::name(&report.columns[*at])), unit.symbol)
-    });
-    let limits = report.limits.iter().map(|(column, own)| {
-        format!("{}\n{}", in_lines(&own.key), words::level_of(report, *column, own))
-    });
-    let header = list(names.chain(measures).chain(limits));
+    let measures = told.iter().map(|own| own.name(report));
+    let header = list(names.chain(measures));
     let row = |point: usize| {
         let places = swept.varied.places(&swept.grid.places(point)).into_iter().enumerate();
         let own = places.map(|(at, place)| match variations[at].words.get(place) {
             Some(word) => word.clone(),
             None => words::short(axes[at].1[place]),
         });
-        let values = told.iter().map(|(at, unit)| {
-            let at = point * report.columns.len() + at;
-            let (value, error) = (report.values[at], report.errors[at]);
-            let error = Some(error).filter(|own| own.is_finite());
-            let text = || unit.number(value, digits(value, error, MOST_DIGITS));
-            match value {
-                own if !own.is_finite() => NONE.to_owned(),
-                own if error.is_some_and(|error| own.abs() <= error) => "0".to_owned(),
-                _ => text(),
-            }
-        });
-        let judged = judged.iter().map(|own| own[point].map_or(NONE, Judgement::word).to_owned());
-        list(own.chain(values).chain(judged))
+        list(own.chain(told.iter().map(|own| own.cell(report, point))))
     };
     let header = list(header.iter().map(String::as_str));
     let points = report.points();
@@ -64,6 +49,59 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
     let caption =
         if more > 0 { format!("The first {shown} designs") } else { "All points".to_owned() };
     (Table::new(caption, &header, (0..shown).map(row)), more)
+}
+
+/// What stands in a column of the table.
+enum Told {
+    /// The values of a column of the sweep.
+    Values(usize, Unit),
+    /// The verdicts on a limit.
+    Verdicts(usize, Vec<Option<Judgement>>),
+}
+
+/// What limits are on first, each with its verdicts behind it.
+fn told(report: &SweepReport) -> Vec<Told> {
+    let mut columns = words::told(report);
+    columns.extend(report.limits.iter().map(|own| own.0));
+    columns.sort_unstable();
+    columns.dedup();
+    columns.sort_by_key(|at| report.limits.iter().all(|own| own.0 != *at));
+    let with_verdicts = columns.into_iter().flat_map(|at| {
+        let limits = (0..report.limits.len()).filter(move |&limit| report.limits[limit].0 == at);
+        let verdicts = limits.map(|limit| Told::Verdicts(limit, report.judged(limit)));
+        [Told::Values(at, figures::unit(report, at))].into_iter().chain(verdicts)
+    });
+    with_verdicts.collect()
+}
+
+impl Told {
+    fn name(&self, report: &SweepReport) -> String {
+        match self {
+            Self::Values(at, unit) => {
+                format!("{}\n{}", in_lines(&words::name(&report.columns[*at])), unit.symbol)
+            }
+            Self::Verdicts(at, _) => {
+                let (column, own) = &report.limits[*at];
+                format!("verdict\n{}", words::level_of(report, *column, own))
+            }
+        }
+    }
+
+    fn cell(&self, report: &SweepReport, point: usize) -> String {
+        match self {
+            Self::Values(at, unit) => {
+                let at = point * report.columns.len() + at;
+                let (value, error) = (report.values[at], report.errors[at]);
+                let error = Some(error).filter(|own| own.is_finite());
+                match value {
+                    own if !own.is_finite() => NONE.to_owned(),
+                    own if error.is_some_and(|error| own.abs() <= error) => "0".to_owned(),
+                    _ => unit.number(value, digits(value, error, MOST_DIGITS)),
+                }
+            }
+            Self::Verdicts(_, judged) => judged[point].map_or(NONE, Judgement::word).to_owned(),
+        }
+    }
 }
 
 /// A key in lines: what is measured below what it is of.

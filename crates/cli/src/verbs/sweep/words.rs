@@ -1,14 +1,14 @@
 //! What was varied, the ends of what was found, and what is to be said of it.
 
 use dashpot_analysis::{
-    Judgement, Limit, Reason, Warning,
+    Limit, Warning,
     sweep::{Column, Estimates, Gap, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
 use dashpot_scene::{Remark, Variation, units::si_unit};
 
-use super::{Form, SweepArguments, Swept, Varied};
+use super::{Form, SweepArguments, Swept, Varied, kept, unmoved::unmoved};
 use crate::{
     numbers::{self, Unit, apart, bound, counted, duration, estimate, significant},
     output::list,
@@ -208,47 +208,6 @@ pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> St
     format!("{} {}", limit.bound.sign(), level(limit, kind, report.columns[column].unit))
 }
 
-/// How many points keep each limit.
-pub(super) fn kept(swept: &Swept) -> Vec<String> {
-    let report = &swept.report;
-    let sentence = |at: usize| {
-        let (column, own) = &report.limits[at];
-        let judged = report.judged(at);
-        let known = || judged.iter().copied().flatten();
-        let count = |which: Judgement| known().filter(|own| *own == which).count();
-        let [pass, fail, beyond] =
-            [Judgement::Pass, Judgement::Fail, Judgement::Undecided(Reason::Beyond)].map(count);
-        let beyond = match beyond {
-            0 => String::new(),
-            count => {
-                format!(" ({count} would pass, but beyond the points of a law or a thickness)")
-            }
-        };
-        let open = match known().filter_map(Judgement::reason).count() {
-            0 => String::new(),
-            count => format!(", {count} undecided{beyond}"),
-        };
-        let limit = limit(report, *column, own);
-        let within = passing(swept, &judged).unwrap_or_default();
-        let of = judged.len();
-        format!("{} {limit}: {pass} of {of} points pass{within}, {fail} fail{open}", own.key)
-    };
-    (0..report.limits.len()).map(sentence).collect()
-}
-
-/// From where to where a limit is kept over one number, where that is one stretch.
-fn passing(swept: &Swept, judged: &[Option<Judgement>]) -> Option<String> {
-    let [own] = &swept.varied.variations[..] else { return None };
-    if own.is_of_words() || swept.varied.is_of_rows() {
-        return None;
-    }
-    let passes = |at: &usize| judged[*at] == Some(Judgement::Pass);
-    let first = (0..judged.len()).find(passes)?;
-    let last = (0..judged.len()).rev().find(passes)?;
-    let is_one = (first..=last).all(|at| passes(&at));
-    is_one.then(|| format!(", from {} to {}", shown(own, first), shown(own, last)))
-}
-
 /// A value of a parameter to four digits.
 pub(super) fn shown(variation: &Variation, at: usize) -> String {
     match variation.words.get(at) {
@@ -278,13 +237,14 @@ const MOST_WARNED: usize = 8;
 /// How it was solved, what runs are warned of, what is missing, and what was left out.
 pub(super) fn notes(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
-    let mut all = kept(swept);
+    let mut all = kept::kept(swept);
     all.extend(zeros(report));
     all.extend(means(swept));
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));
     all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
     all.extend(missing(swept));
+    all.extend(unmoved(swept));
     all
 }
 
@@ -293,7 +253,7 @@ pub(super) fn warned(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let partial = report.partial.iter().flat_map(|own| left_out(own, report));
     let all = warnings(swept, report, points).into_iter().chain(missing(swept));
-    all.chain(partial).collect()
+    all.chain(partial).chain(unmoved(swept)).collect()
 }
 
 /// How it was solved.
