@@ -49,6 +49,7 @@ mod pictures;
 mod power_laws;
 mod properties;
 mod random_networks;
+mod rating;
 mod scatter;
 mod scenes;
 mod signal;

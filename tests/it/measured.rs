@@ -2,6 +2,7 @@
 
 use std::{f64::consts::PI, fmt::Write as _, fs};
 
+use dashpot::signal::{Cfc, Padding};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -211,4 +212,137 @@ fn what_was_written_is_read_back_with_its_signs() {
         "{}",
         err(&refused)
     );
+}
+
+/// What an accelerometer on the mass of [`DROP`] reads at a time from the touch on: K y / m until it leaves.
+fn pushed(time: f64) -> f64 {
+    let speed = (2.0 * GRAVITY).sqrt();
+    let depth = GRAVITY / OMEGA.powi(2) * (1.0 - (OMEGA * time).cos())
+        + speed / OMEGA * (OMEGA * time).sin();
+    if (0.0..0.06).contains(&time) { (OMEGA.powi(2) * depth).max(0.0) } else { 0.0 }
+}
+
+/// Samples of that at 20 kHz from 20 ms before the touch to 100 ms behind it, through a filter.
+fn recorded(cfc: Option<f64>) -> Vec<(f64, f64)> {
+    let times: Vec<f64> = (-400..=2000).map(|at| f64::from(at) * 5e-5).collect();
+    let values: Vec<f64> = times.iter().map(|time| pushed(*time)).collect();
+    let filtered = |class| Cfc::new(class).unwrap().filter(&values, 20e3, Padding::Odd).unwrap();
+    let values = cfc.map_or(values.clone(), filtered);
+    times.into_iter().zip(values).collect()
+}
+
+fn table(rows: &[(f64, f64)]) -> String {
+    let lines = rows.iter().map(|own| format!("{:.6},{:.12}\n", 1e3 * own.0, own.1));
+    format!("t [ms],a [m/s^2]\n{}", lines.collect::<String>())
+}
+
+#[test]
+fn a_run_says_what_the_record_says_that_is_its_own_closed_form() {
+    let (folder, [_, drop, ..]) = folder();
+    let path = file(&folder, "own.csv", &table(&recorded(None)));
+    let all = ["run", &drop, "--measured", path.to_str().unwrap()];
+    let own = json(&[&all[..], &["--json"]].concat())["runs"][0]["measured"][0].clone();
+    for (word, relative) in [
+        ("peak", 1e-9),
+        ("contact-time", 1e-9),
+        ("velocity-change", 1e-9),
+        ("hic15", 1e-8),
+        ("hic36", 1e-8),
+        ("hic", 1e-8),
+        ("severity-index", 1e-8),
+        ("clip-3ms", 1e-8),
+        ("peak-displacement", 1e-7),
+        ("rebound-velocity", 1e-7),
+        ("coefficient-of-restitution", 1e-7),
+        ("energy-taken", 1e-7),
+        ("energy-returned", 1e-7),
+    ] {
+        let reading = &own["measures"][word];
+        let [measured, model] = ["measured", "model"].map(|of| number(&reading[of]["value"]));
+        assert!((model / measured - 1.0).abs() < relative, "{word}: {reading}");
+        assert!(number(&reading["model"]["error"]) > 0.0, "{word}: {reading}");
+    }
+    // Half of the mass times the square of the speed, and its weight on the way: what the spring stores.
+    let depth = GRAVITY / OMEGA.powi(2)
+        + ((GRAVITY / OMEGA.powi(2)).powi(2) + 2.0 * GRAVITY / OMEGA.powi(2)).sqrt();
+    let taken = &own["measures"]["energy-taken"]["measured"];
+    let stored = 0.5 * 25e3 * depth * depth;
+    let off = (number(&taken["value"]) - stored).abs();
+    assert!(off <= number(&taken["error"]) && off < 1e-4 * stored, "{taken}, not {stored}");
+    close(&own["measures"]["coefficient-of-restitution"]["measured"]["value"], 1.0, 1e-4);
+    let rating = &own["rating"];
+    assert_eq!(rating["grade"], "excellent");
+    close(&rating["overall"], 1.0, 1e-6);
+    let text = words(&out(&run(&all)));
+    assert!(text.contains("rating (ISO/TS 18571) 1.000, excellent"), "{text}");
+    assert!(text.contains("head.acceleration: what both say at the same times"), "{text}");
+}
+
+#[test]
+fn a_factor_in_the_force_is_that_of_impulse_energy_and_slope() {
+    let (folder, [scene, _, force, _]) = folder();
+    let mut way = "t [ms],w [mm]\n".to_owned();
+    for at in 0..=400 {
+        let share = f64::from(at) / 400.0;
+        let depth = 5.0 / OMEGA * (PI * share).sin();
+        writeln!(way, "{:.9},{:.12}", 1e3 * PI / OMEGA * share + 2.0, 1e3 * depth).unwrap();
+    }
+    let way = file(&folder, "w.csv", &way);
+    let [force, way] =
+        [format!("{force}:pad.force"), format!("{}:pad.deformation", way.to_str().unwrap())];
+    let all =
+        ["run", &scene, "--measured", &force, "--measured", &way, "--shift", "-2 ms", "--json"];
+    let own = json(&all)["runs"][0]["measured"][0].clone();
+    let relative = |word: &str| &own["measures"][word]["relative"];
+    close(relative("impulse"), 1.0 / 1.1 - 1.0, 1e-8);
+    close(relative("energy-taken"), 1.0 / 1.1 - 1.0, 1e-6);
+    // Half of the mass times the square of the speed.
+    close(&own["measures"]["energy-taken"]["model"]["value"], 50.0, 1e-2);
+    close(&own["measures"]["energy-absorbed"]["model"]["value"], 0.0, 1e-2);
+    let rating = &own["rating"];
+    close(&rating["phase"], 1.0, 0.0);
+    close(&rating["slope"], 1.0 - 0.1 / 1.1 / 2.0, 1e-3);
+    assert_eq!(rating["grade"], "excellent");
+}
+
+#[test]
+fn the_model_goes_through_the_filter_of_the_record() {
+    let (folder, [_, drop, ..]) = folder();
+    let rows = recorded(Some(60.0));
+    let path = file(&folder, "own.csv", &table(&rows));
+    let path = path.to_str().unwrap();
+    let rms = |all: &[&str]| {
+        let own = json(&[&["run", &drop, "--json"][..], all].concat());
+        number(&own["runs"][0]["measured"][0]["rms_relative"])
+    };
+    assert!(rms(&["--measured", path]) > 1e-4);
+    assert!(rms(&["--measured", path, "--cfc", "60"]) < 1e-9);
+    // ISO-MME says the class in its code.
+    let mut text = "Name of the channel:Head\nChannel code:11HEAD0000H3ACXD\nUnit:m/s2\n\
+         Sampling interval:0.00005\nTime of first sample:-0.02\n"
+        .to_owned();
+    rows.iter().for_each(|own| writeln!(text, "{:.12}", own.1).unwrap());
+    let test = folder.path().join("test");
+    fs::create_dir(&test).unwrap();
+    fs::write(test.join("drop.mme"), "Data format edition number:1.6\n").unwrap();
+    fs::write(test.join("drop.001"), text).unwrap();
+    let mme = test.join("drop.mme");
+    let mme = mme.to_str().unwrap();
+    assert!(rms(&["--measured", mme]) < 1e-9);
+    for named in ["Head=head.acceleration", "11HEAD0000H3ACXD=head.acceleration"] {
+        assert!(rms(&["--measured", &format!("{mme}:{named}")]) < 1e-9);
+    }
+    let own = json(&["run", &drop, "--measured", mme, "--json"]);
+    assert_eq!(own["runs"][0]["measured"][0]["cfc"], 60.0);
+    // Uneven steps have no filter.
+    let uneven: Vec<_> = rows.iter().filter(|own| own.0 < 0.01 || own.0 > 0.02).copied().collect();
+    let uneven = file(&folder, "uneven.csv", &table(&uneven));
+    let refused = run(&["run", &drop, "--measured", uneven.to_str().unwrap(), "--cfc", "60"]);
+    let told = words(&err(&refused));
+    assert!(code(&refused) == 2 && told.contains("the model cannot go through CFC 60"), "{told}");
+    let results = folder.path().join("results");
+    let all = ["run", &drop, "--measured", mme, "--out", results.to_str().unwrap()];
+    assert_eq!(code(&run(&all)), 0);
+    let drawn = fs::read_to_string(results.join("acceleration-time.svg")).unwrap();
+    assert!(drawn.contains("through CFC 60"));
 }

@@ -37,6 +37,8 @@ pub struct Settings {
     pub window: Option<(f64, f64)>,
     /// How a body moves that an accelerometer is on, where its motion is wanted.
     pub approach: Option<Approach>,
+    /// How far every sample may be off besides, in SI units.
+    pub error: f64,
 }
 
 /// Why a channel cannot be read as it is asked for.
@@ -85,28 +87,40 @@ pub struct Analysis {
     pub motion: Option<Motion>,
     /// The work of a force, where there is a displacement.
     pub work: Option<Work>,
-    /// How far every sample may be off in the same direction, by the offset and the resolution.
+    /// How far every sample may be off in the same direction, by the offset, the resolution, and what else is stated.
     pub floor: f64,
     /// What is wrong with it.
     pub defects: Vec<Defect>,
 }
 
+/// A channel as it is read: without offset, filtered, cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Treated {
+    /// The channel.
+    pub channel: Channel,
+    /// The reading at rest, where the record tells it.
+    pub offset: Option<Offset>,
+    /// What was taken off, in SI units.
+    pub removed: Option<f64>,
+    /// How far every sample may be off in the same direction.
+    pub floor: f64,
+}
+
 impl Settings {
-    /// Reads a channel.
+    /// What is made of a channel before it is read.
     ///
     /// # Errors
     ///
     /// [`SettingsFault`], where the channel does not allow what is asked for.
-    pub fn analyse(&self, raw: Channel) -> Result<Analysis, SettingsFault> {
-        let steps = raw.steps();
-        let offset = Offset::before_pulse(&raw);
+    pub fn treated(&self, raw: &Channel) -> Result<Treated, SettingsFault> {
+        let offset = Offset::before_pulse(raw);
         let (removed, error) = match (self.offset, offset) {
             (Removal::Nothing, _) => (None, 0.0),
             (Removal::Given(value), _) => (Some(value), 0.0),
             (Removal::Found, Some(offset)) => (Some(offset.value), offset.error),
             (Removal::Found, None) => return Err(SettingsFault::NoRest),
         };
-        let floor = error + 0.5 * raw.resolution();
+        let floor = error + 0.5 * raw.resolution() + self.error;
         let sign = if self.is_inverted { -1.0 } else { 1.0 };
         let mut channel = raw.map(|own| sign * (own - removed.unwrap_or(0.0)));
         if let Some(rate) = self.rate {
@@ -123,6 +137,17 @@ impl Settings {
         if let Some(window) = self.window {
             channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
         }
+        Ok(Treated { channel, offset, removed, floor })
+    }
+
+    /// Reads a channel.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingsFault`], where the channel does not allow what is asked for.
+    pub fn analyse(&self, raw: Channel) -> Result<Analysis, SettingsFault> {
+        let steps = raw.steps();
+        let Treated { channel, offset, removed, floor } = self.treated(&raw)?;
         let reader = Reader::new(&channel, floor);
         let mut readings: Vec<Reading> =
             Measure::of(channel.dimension()).filter_map(|own| reader.read(own)).collect();

@@ -1,7 +1,5 @@
 //! Velocity and displacement of what an accelerometer is on.
 
-use dashpot_analysis::measures::STANDARD_GRAVITY;
-
 use crate::{Channel, Contact, Measure, Polarity, Reading, sampling::Sampling};
 
 /// How a body moves before the blow.
@@ -11,8 +9,8 @@ pub struct Approach {
     pub velocity: f64,
     /// Its mass \[kg\], where energies are wanted.
     pub mass: Option<f64>,
-    /// Whether it falls: its weight pulls along the blow.
-    pub falls: bool,
+    /// What it would gain in free fall, along the blow \[m/s²\]; 0 where nothing pulls it.
+    pub gravity: f64,
 }
 
 /// The motion of a body along the blow: `v = V + g t − ∫ a dt`, where its peak acceleration slows it down. What the
@@ -46,7 +44,7 @@ impl Motion {
     ) -> Self {
         let (times, values) = (channel.times(), channel.values());
         let sign = if channel.polarity() == Polarity::Positive { -1.0 } else { 1.0 };
-        let weight = if approach.falls { STANDARD_GRAVITY } else { 0.0 };
+        let weight = approach.gravity;
         let mut own = Self {
             velocity: vec![approach.velocity],
             velocity_error: vec![0.0],
@@ -147,7 +145,7 @@ impl Motion {
         }
         let Some(mass) = approach.mass else { return all };
         // What the weight does on the way is not the pad's.
-        let weight = if approach.falls { mass * STANDARD_GRAVITY } else { 0.0 };
+        let weight = mass * approach.gravity;
         let kinetic =
             |v: f64, error: f64| (0.5 * mass * v * v, mass * (v.abs() + 0.5 * error) * error);
         let fallen = self.displacement[end] - self.displacement[start] - self.free.0;

@@ -4,19 +4,27 @@ use std::path::Path;
 
 use clap::Args;
 use dashpot_analysis::{Family, RunReport, excerpt, measured::Deviation, reported};
+use dashpot_dae::Signal;
 use dashpot_network::{Assembly, parameters::Dimension};
 use dashpot_plot::{MeasuredSeries, Of};
-use dashpot_scene::{DataTable, Scene};
+use dashpot_scene::Scene;
+use dashpot_signal::{Cfc, Channel, Padding, Recorder};
 
-use super::series::first_touch;
-use crate::{args, error::CliError, measured::MeasuredFile, numbers::constant, origin};
+use super::{
+    columns::{Columns, OfTable, OfTest, column_of, only_one},
+    compared::Numbers,
+    recorded::Recorded,
+};
+use crate::{
+    args, error::CliError, measured::MeasuredFile, numbers::constant, origin, output::list,
+};
 
 /// Which measured curves stand beside the runs.
 #[derive(Debug, Args)]
 pub(super) struct MeasuredArguments {
     /// A measured curve beside the runs: a file with a column of time and one of force, deformation,
-    /// acceleration or velocity, with their units. "drop.csv:pad.force" says which output it measured,
-    /// "drop.csv:Kraft=pad.force" in which column; repeatable.
+    /// acceleration or velocity, with their units, or a test in ISO-MME. "drop.csv:pad.force" says which output it
+    /// measured, "drop.csv:Kraft=pad.force" in which column; repeatable.
     #[arg(long, value_name = "FILE[:[COLUMN=]OUTPUT]")]
     measured: Vec<String>,
     /// Moves the measured curves later by this time, or earlier, as in "-2.4 ms": their time 0 is that of the figures,
@@ -29,13 +37,20 @@ pub(super) struct MeasuredArguments {
         value_parser = args::shift
     )]
     shift: Option<f64>,
+    /// The channel frequency class that the measured curves went through: what the model says at their times goes
+    /// through it as well [default: that of the code of an ISO-MME channel, else none].
+    #[arg(long, value_name = "CLASS", requires = "measured", value_parser = args::frequency_class)]
+    cfc: Option<Cfc>,
 }
 
 impl MeasuredArguments {
     /// The curves, each beside an output of the scene.
     pub(super) fn read(&self, scene: &Scene) -> Result<Vec<MeasuredCurve>, CliError> {
         let (shift, assembly) = (self.shift.unwrap_or(0.0), &scene.assembly);
-        let read = |own: &String| MeasuredCurve::read((FLAG, own), shift, assembly);
+        let read = |own: &String| {
+            let curve = MeasuredCurve::read((FLAG, own), shift, assembly)?;
+            Ok(MeasuredCurve { cfc: self.cfc.or(curve.cfc), ..curve })
+        };
         self.measured.iter().map(read).collect()
     }
 }
@@ -52,11 +67,8 @@ pub(in crate::verbs) struct Output {
     pub(in crate::verbs) of: Of,
 }
 
-/// What can be measured over time.
-const MEASURABLE: [Of; 4] = [Of::Force, Of::Acceleration, Of::Velocity, Of::Deformation];
-
 /// The dimension of a signal.
-fn dimension(of: Of) -> Dimension {
+pub(super) fn dimension(of: Of) -> Dimension {
     match of {
         Of::Time => Dimension::TIME,
         Of::Force => Dimension::FORCE,
@@ -101,7 +113,7 @@ impl Output {
 
     /// That of a signal which a run would tell of without being asked, where there is one only: of the pad that is
     /// struck, or of the impactor. A contact or stop that belongs to a pad is none of its own.
-    fn foremost(assembly: &Assembly, of: Of) -> Option<Self> {
+    pub(super) fn foremost(assembly: &Assembly, of: Of) -> Option<Self> {
         let named = |name: &String| Self { name: name.clone(), of };
         let found: Vec<Self> = match of {
             Of::Acceleration | Of::Velocity => reported(assembly, Family::Node)
@@ -149,16 +161,22 @@ pub(in crate::verbs) struct MeasuredCurve {
     pub(in crate::verbs) rows: Vec<(f64, f64)>,
     /// How much later than in the file the rows are \[s\].
     pub(super) shift: f64,
+    /// The filter that it went through.
+    pub(super) cfc: Option<Cfc>,
     /// What is told of the file.
     pub(in crate::verbs) note: Option<String>,
 }
 
 /// A measured curve beside one run.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Beside {
     /// When in the run the time of the curve is 0 \[s\]: the first touch, or else the start.
     pub(super) zero: f64,
     pub(super) deviation: Deviation,
+    /// What is read off both; `None` where two rows have the same time.
+    pub(super) numbers: Option<Numbers>,
+    /// The model as it was compared, where it went through a filter.
+    pub(super) filtered: Option<Vec<(f64, f64)>>,
 }
 
 impl MeasuredCurve {
@@ -168,7 +186,6 @@ impl MeasuredCurve {
         assembly: &Assembly,
     ) -> Result<Self, CliError> {
         let (name, column, output) = parts(argument);
-        let file = MeasuredFile::read(flag, name)?;
         let known = Output::all(assembly);
         let wanted = output.map(|wanted| {
             let found = known.iter().find(|own| own.key() == wanted).cloned();
@@ -179,60 +196,93 @@ impl MeasuredCurve {
                 known: known.iter().map(Output::key).collect(),
             })
         });
-        let table = file.table()?;
-        let (at, output) = match wanted.transpose()? {
-            Some(output) => (column_of(&file, &table, column, &output)?, output),
-            None => only_one(&file, &table, assembly, &known)?,
+        let chosen = |all: &dyn Columns| match wanted {
+            Some(Ok(output)) => Ok((column_of(all, column, &output)?, output)),
+            Some(Err(fault)) => Err(fault),
+            None => only_one(all, assembly, &known),
         };
-        let time = file.only(&table, Dimension::TIME)?.ok_or_else(|| {
-            let has = columns(&table);
-            file.unclear(format!(
-                "no column is a time by its unit; write that into the header, as in `time [ms]`; it has {has}"
+        let sha256 = origin::of_file(name).unwrap_or_default();
+        let file = name.to_owned();
+        if let Some(test) = OfTest::read(flag, name)? {
+            let (at, output) = chosen(&test)?;
+            let mut rows = test.rows(at);
+            rows.iter_mut().for_each(|row| row.0 += shift);
+            let (column, cfc) = (test.title(at), test.cfc(at));
+            return Ok(Self { file, sha256, column, output, rows, shift, cfc, note: None });
+        }
+        let read = MeasuredFile::read(flag, name)?;
+        let table = read.table()?;
+        let all = OfTable { file: &read, table: &table };
+        let (at, output) = chosen(&all)?;
+        let time = read.only(&table, Dimension::TIME)?.ok_or_else(|| {
+            read.unclear(format!(
+                "no column is a time by its unit; write that into the header, as in `time [ms]`; it has {}",
+                all.all()
             ))
         })?;
         let mut rows =
-            file.points(&table, [(time, Dimension::TIME), (at, dimension(output.of))])?;
+            read.points(&table, [(time, Dimension::TIME), (at, dimension(output.of))])?;
         if let Some(next) = (1..rows.len()).find(|&next| rows[next].0 < rows[next - 1].0) {
             let [before, after] = [rows[next - 1].0, rows[next].0].map(|own| constant(own, "s"));
             let line = table.lines()[next];
-            return Err(file.unclear(format!(
+            return Err(read.unclear(format!(
                 "line {line}: the time {after} stands after {before}; sort the rows by time"
             )));
         }
         rows.iter_mut().for_each(|row| row.0 += shift);
-        let (column, note) = (title(&table, at), file.notes(&table));
-        let sha256 = origin::of_file(name).unwrap_or_default();
-        Ok(Self { file: name.to_owned(), sha256, column, output, rows, shift, note })
+        let (column, note) = (all.title(at), read.notes(&table));
+        Ok(Self { file, sha256, column, output, rows, shift, cfc: None, note })
+    }
+
+    fn unlike(&self, reason: String) -> CliError {
+        CliError::MeasuredColumn { flag: FLAG, file: self.file.clone(), reason }
     }
 
     /// How far a run is from it.
-    pub(super) fn beside(&self, run: &RunReport) -> Result<Beside, CliError> {
-        let unlike = |reason: String| CliError::MeasuredColumn {
-            flag: FLAG,
-            file: self.file.clone(),
-            reason,
-        };
-        let place = self.output.place(&run.assembly);
-        let kept = place.filter(|own| run.trajectory.keeps(&run.assembly.system, own.0));
-        let Some((output, sign)) = kept else {
+    pub(super) fn beside(&self, run: &RunReport, scene: &Scene) -> Result<Beside, CliError> {
+        let Some(recorded) = Recorded::of(run, &self.output) else {
             let reason = "is not kept in a network of this size; ask for a measure of it";
-            return Err(unlike(format!("`{}` {reason}", self.output.key())));
+            return Err(self.unlike(format!("`{}` {reason}", self.output.key())));
         };
-        let signal = run.solution().signal(output).scaled(sign);
-        let zero = first_touch(run).unwrap_or(0.0);
+        let zero = recorded.zero;
         let window = excerpt(&run.solution());
-        let found = Deviation::over_time(&self.rows, (&signal, window), zero);
+        let filtered = self.cfc.map(|cfc| self.filtered(&recorded, cfc)).transpose()?;
+        let signal = match &filtered {
+            Some(own) => own,
+            None => &recorded.signal,
+        };
+        let found = Deviation::over_time(&self.rows, (signal, window), zero);
         let deviation = found.ok_or_else(|| {
             let time = |own: Option<&(f64, f64)>| constant(own.map_or(0.0, |own| own.0), "s");
             let (from, to) = (time(self.rows.first()), time(self.rows.last()));
             let [start, end] = [window.0 - zero, window.1 - zero].map(|own| constant(own, "s"));
             let origin = if zero > 0.0 { "the first touch" } else { "the start of the run" };
-            unlike(format!(
+            self.unlike(format!(
                 "its rows, from {from} to {to}, and what figures show of the run, {start} to {end} from {origin}, \
                  have fewer than two rows other than zero in common; `--shift` moves them"
             ))
         })?;
-        Ok(Beside { zero, deviation })
+        let is_inside = |own: &&(f64, f64)| (window.0..=window.1).contains(&(own.0 + zero));
+        let rows: Vec<(f64, f64)> = list(self.rows.iter().filter(is_inside).copied());
+        let numbers = Numbers::of((self, &rows), (signal, zero), run, scene);
+        let drawn = |own: &Signal| list(rows.iter().map(|row| (row.0, own.value(row.0 + zero))));
+        Ok(Beside { zero, deviation, numbers, filtered: filtered.as_ref().map(drawn) })
+    }
+
+    /// What a recorder with its times and this filter makes of a signal, as lines between samples, on the clock of the
+    /// run.
+    fn filtered(&self, recorded: &Recorded, cfc: Cfc) -> Result<Signal, CliError> {
+        let unlike = |reason: String| {
+            self.unlike(format!("the model cannot go through CFC {}: {reason}", cfc.class()))
+        };
+        let times = self.rows.iter().map(|own| own.0);
+        let times: Vec<f64> = list(times.take_while(|own| own + recorded.zero <= recorded.end));
+        let recorder = Recorder::new(times, Some((cfc, Padding::default())));
+        let recorder = recorder.map_err(|own| unlike(own.to_string()))?;
+        let values = recorder.record(|time| recorded.value(time));
+        let times = list(recorder.times().iter().map(|own| own + recorded.zero));
+        let channel = Channel::new(self.output.key(), dimension(self.output.of), times, values);
+        Ok(channel.map_err(|own| unlike(own.to_string()))?.signal(1.0))
     }
 
     /// It as a figure draws it.
@@ -248,7 +298,7 @@ impl MeasuredCurve {
 fn parts(argument: &str) -> (&str, Option<&str>, Option<&str>) {
     let colons = argument.match_indices(':').map(|own| own.0);
     let mut ends = [argument.len()].into_iter().chain(colons.rev());
-    let is_there = |end: &usize| Path::new(&argument[..*end]).is_file();
+    let is_there = |end: &usize| Path::new(&argument[..*end]).exists();
     let end = ends.clone().find(is_there).or_else(|| ends.nth(1));
     let end = end.unwrap_or(argument.len());
     let Some(rest) = argument[end..].strip_prefix(':') else {
@@ -258,111 +308,6 @@ fn parts(argument: &str) -> (&str, Option<&str>, Option<&str>) {
         Some((column, output)) => (&argument[..end], Some(column.trim()), Some(output.trim())),
         None => (&argument[..end], None, Some(rest.trim())),
     }
-}
-
-/// The column that measured an output: the one that is named, or has its name, or the only one of its dimension.
-fn column_of(
-    file: &MeasuredFile,
-    table: &DataTable<'_>,
-    named: Option<&str>,
-    output: &Output,
-) -> Result<usize, CliError> {
-    let key = output.key();
-    if let Some(name) = named {
-        let is_known = (0..table.columns()).any(|at| table.heading(at).name == name);
-        if !is_known {
-            let has = columns(table);
-            return Err(file.unclear(format!("there is no column `{name}`; it has {has}")));
-        }
-        let at = table.position(name).map_err(|own| file.fault(own))?;
-        if table.heading(at).unit.is_none() {
-            return Err(file.unclear(format!(
-                "the column `{name}` has no unit; write it into the header, as in `{name} [{}]`",
-                output.unit()
-            )));
-        }
-        if !table.measuring(dimension(output.of)).contains(&at) {
-            let (word, has) = (a_word(output.of), columns(table));
-            return Err(file.unclear(format!(
-                "the column `{name}` is not {word} by its unit, as `{key}` is; it has {has}"
-            )));
-        }
-        return Ok(at);
-    }
-    if let Ok(at) = table.position(&key) {
-        return Ok(at);
-    }
-    let found = file.only(table, dimension(output.of))?;
-    found.ok_or_else(|| {
-        file.unclear(format!(
-            "no column is {} by its unit, as `{key}` is; it has {}",
-            a_word(output.of),
-            columns(table)
-        ))
-    })
-}
-
-/// The only column that measured what can be measured, and the output that it tells of.
-fn only_one(
-    file: &MeasuredFile,
-    table: &DataTable<'_>,
-    assembly: &Assembly,
-    known: &[Output],
-) -> Result<(usize, Output), CliError> {
-    let found: Vec<(usize, Of)> = MEASURABLE
-        .into_iter()
-        .flat_map(|of| table.measuring(dimension(of)).into_iter().map(move |at| (at, of)))
-        .collect();
-    let [(at, of)] = found[..] else {
-        let which = match found.len() {
-            0 => "no column is a force, deformation, acceleration or velocity by its unit",
-            _ => "several columns may be meant: say which, as in `drop.csv:Kraft=pad.force`",
-        };
-        return Err(file.unclear(format!("{which}; it has {}", columns(table))));
-    };
-    let title = title(table, at);
-    if let Some(own) = known.iter().find(|own| own.key() == title) {
-        return Ok((at, own.clone()));
-    }
-    let of_kind: Vec<&Output> = known.iter().filter(|own| own.of == of).collect();
-    let only = match of_kind[..] {
-        [one] => Some(one.clone()),
-        _ => Output::foremost(assembly, of),
-    };
-    let names = || of_kind.iter().map(|own| own.key()).collect::<Vec<_>>().join(", ");
-    let output = only.ok_or_else(|| {
-        file.unclear(match of_kind.len() {
-            0 => format!("`{title}` is {}, which the scene has none of", a_word(of)),
-            _ => format!(
-                "`{title}` may be any of {}; say which, as in `drop.csv:{}`",
-                names(),
-                of_kind[0].key()
-            ),
-        })
-    })?;
-    Ok((at, output))
-}
-
-fn a_word(of: Of) -> String {
-    let word = of.word();
-    format!("{} {word}", if word.starts_with('a') { "an" } else { "a" })
-}
-
-/// The name of a column, or else its number.
-fn title(table: &DataTable<'_>, at: usize) -> String {
-    match table.heading(at).name {
-        "" => format!("column {}", at + 1),
-        name => name.to_owned(),
-    }
-}
-
-/// All columns with their units.
-fn columns(table: &DataTable<'_>) -> String {
-    let one = |at: usize| {
-        let unit = table.heading(at).unit.map_or(String::new(), |unit| format!(" [{unit}]"));
-        format!("`{}{unit}`", title(table, at))
-    };
-    (0..table.columns()).map(one).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

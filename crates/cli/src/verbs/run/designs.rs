@@ -11,7 +11,7 @@ use dashpot_scene::{ModelNote, Scene};
 use serde::Serialize;
 
 use super::{
-    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments,
+    Answer, LABELS, PLOT_HEIGHT, PLOT_POINTS, RunArguments, compared,
     deviations::{self, Compared, by_curve},
     files,
     files::Written,
@@ -454,7 +454,9 @@ impl Study for Designs {
             },
             tables: {
                 let by_curve = self.by_curve();
-                let found = by_curve.iter().filter_map(|own| deviations::table(own));
+                let found =
+                    by_curve.iter().flat_map(|own| [deviations::table(own), compared::table(own)]);
+                let found = found.flatten();
                 let remarks = by_curve.iter().flat_map(|own| deviations::remarks(own));
                 let notes = self.of_each(|own| said::notes(&own.answer.scene)).into_iter();
                 let remarks = list(notes.chain(remarks));

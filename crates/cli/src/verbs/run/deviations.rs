@@ -1,12 +1,14 @@
 //! How far runs are from what was measured: in tables, in words, and for programs.
 
 use dashpot_analysis::RunReport;
-use dashpot_plot::Table;
+use dashpot_plot::{MeasuredSeries, Table};
+use dashpot_signal::Cfc;
 use serde::Serialize;
 
 use super::{
     Answer,
     beside::{Beside, MeasuredCurve},
+    compared,
     measures::unit_of_kind,
 };
 use crate::{
@@ -23,8 +25,18 @@ const FEW: usize = 3;
 #[derive(Clone, Copy)]
 pub(super) struct Compared<'r> {
     pub(super) name: &'r str,
-    curve: &'r MeasuredCurve,
-    beside: &'r Beside,
+    pub(super) curve: &'r MeasuredCurve,
+    pub(super) beside: &'r Beside,
+}
+
+impl Compared<'_> {
+    /// The model as it was compared, where it went through a filter, as a figure draws it.
+    pub(super) fn filtered(&self) -> Option<MeasuredSeries> {
+        let points = self.beside.filtered.clone()?;
+        let class = self.curve.cfc.map_or(0.0, Cfc::class);
+        let name = format!("{} through CFC {class}", self.name);
+        Some(MeasuredSeries { name, of: self.curve.output.of, points })
+    }
 }
 
 impl Answer {
@@ -64,6 +76,7 @@ pub(super) fn by_curve<'r>(
 pub(super) fn show(curves: &[Vec<Compared<'_>>], text: &mut Text) {
     for own in curves {
         table(own).iter().for_each(|table| text.table(table));
+        compared::table(own).iter().for_each(|table| text.table(table));
         text.paragraphs(remarks(own));
     }
 }
@@ -98,6 +111,7 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
         }),
         row("the same, of the measured peak", &|own| share(of(own).rms)),
     ];
+    let rows = rows.into_iter().chain(compared::scores(all));
     let names = all.iter().map(|own| own.name);
     let header: Vec<&str> = [""].into_iter().chain(names).collect();
     let what = if is_one { curve.output.key() } else { "Outputs".to_owned() };
@@ -136,7 +150,17 @@ pub(super) fn remarks(all: &[Compared<'_>]) -> Vec<String> {
          in the file"
             .to_owned()
     });
-    list([Some(place), opposed, curve.note.clone()].into_iter().flatten())
+    let filter = curve.cfc.map(|cfc| {
+        format!(
+            "the model is read at the times of the file and goes through CFC {}, as the record did",
+            cfc.class()
+        )
+    });
+    list(
+        [Some(place), filter, opposed, compared::remark(all), curve.note.clone()]
+            .into_iter()
+            .flatten(),
+    )
 }
 
 /// The same for programs, in SI units; times are those of the curve.
@@ -158,6 +182,10 @@ pub(super) struct Told<'r> {
     peak_later: f64,
     rms: f64,
     rms_relative: f64,
+    /// The filter that both went through.
+    cfc: Option<f64>,
+    #[serde(flatten)]
+    numbers: compared::Told,
 }
 
 #[derive(Serialize)]
@@ -187,6 +215,8 @@ impl<'r> From<Compared<'r>> for Told<'r> {
             peak_later: deviation.place(),
             rms: deviation.rms * deviation.measured_peak.1.abs(),
             rms_relative: deviation.rms,
+            cfc: curve.cfc.map(Cfc::class),
+            numbers: compared::Told::of(own.beside.numbers.as_ref()),
         }
     }
 }

@@ -10,7 +10,7 @@ use dashpot_plot::{Report, ReportFigure, Table, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
 use super::{
-    Answer, deviations,
+    Answer, compared, deviations,
     energy::energy_table,
     measures::{measures_table, notes},
     resolved_scene, scatter,
@@ -172,7 +172,9 @@ fn page(answer: &Answer) -> Report {
     let mut tables = vec![measures_table(&answer.side())];
     tables.extend(answer.best().and_then(scatter::table));
     let by_curve = answer.by_curve();
-    tables.extend(by_curve.iter().filter_map(|own| deviations::table(own)));
+    tables.extend(
+        by_curve.iter().flat_map(|own| [deviations::table(own), compared::table(own)]).flatten(),
+    );
     let remarks = said::notes(&answer.scene).into_iter().chain(notes(answer));
     let remarks = list(remarks.chain(by_curve.iter().flat_map(|own| deviations::remarks(own))));
     tables.extend(Some(Table::list("Remarks", remarks)).filter(|own| !own.rows.is_empty()));

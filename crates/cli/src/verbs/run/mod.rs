@@ -1,6 +1,8 @@
 //! `dashpot run`.
 
 pub(super) mod beside;
+mod columns;
+mod compared;
 mod curves;
 mod designs;
 mod deviations;
@@ -10,6 +12,7 @@ mod limits;
 mod measures;
 mod object;
 mod order;
+pub(super) mod recorded;
 mod resolved_scene;
 mod scatter;
 pub(super) mod series;
@@ -33,6 +36,7 @@ use serde::Serialize;
 use self::{
     beside::{Beside, MeasuredArguments, MeasuredCurve},
     designs::{Design, Designs, Named},
+    deviations::Compared,
     energy::energy_table,
     files::Written,
     measures::{Column, Side, measures_tables, notes},
@@ -54,7 +58,7 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
-    output::{Study, Text, emit},
+    output::{Study, Text, emit, list},
     progress::Bar,
     terminal::{Terminal, WIDTH},
     text::indented,
@@ -205,7 +209,11 @@ impl Answer {
 
     /// Curves of a run with those that were measured.
     pub(super) fn with_measured(&self, series: RunSeries) -> RunSeries {
-        RunSeries { measured: self.measured.iter().map(MeasuredCurve::series).collect(), ..series }
+        let run = self.runs.iter().find(|own| own.solver.method == series.name).or(self.best());
+        let compared = run.map_or_else(Vec::new, |run| list(self.compared(run, &series.name)));
+        let filtered = compared.iter().filter_map(Compared::filtered);
+        let measured = self.measured.iter().map(MeasuredCurve::series).chain(filtered);
+        RunSeries { measured: measured.collect(), ..series }
     }
 
     /// Its runs side by side.
@@ -349,8 +357,10 @@ fn solve_all(
                     let found = scatter::solved(&scene, drawn, (own, &plain), terminal)?;
                     report.scatter = found.map(Box::new);
                 }
-                let found = measured.iter().map(|own| own.beside(&report));
-                beside.push(found.collect::<Result<_, _>>()?);
+                let found = measured.iter().map(|own| own.beside(&report, &scene));
+                let mut found = found.collect::<Result<Vec<_>, _>>()?;
+                compared::add_work(&measured, &mut found);
+                beside.push(found);
                 report.only.clone_from(&arguments.measure);
                 runs.push(report);
             }

@@ -121,13 +121,15 @@ fn chart(group: &Group<'_>) -> Chart {
         (own.channel.dimension(), best.1.max(own.channel.largest().1))
     });
     let unit = unit(largest, dimension);
-    let is_treated = tests.iter().any(|own| own.settings.cfc.is_some());
+    // Of several tests the lines as recorded would cover all others.
+    let is_treated = tests.len() == 1 && tests.iter().any(|own| own.settings.cfc.is_some());
+    let shown = shown(&tests);
     let line = |times: &[f64], values: &[f64], start: f64| {
-        let points = times.iter().zip(values);
-        points.map(|(time, value)| (MS * (time - start), unit.of(*value))).collect::<Vec<_>>()
+        let points = times.iter().map(|time| time - start).zip(values);
+        let points = points.filter(|own| (shown.0..=shown.1).contains(&own.0));
+        points.map(|(time, value)| (MS * time, unit.of(*value))).collect::<Vec<_>>()
     };
-    // Several tests stand over each other from the beginning of their contacts.
-    let start = |own: &Analysis| if tests.len() > 1 { own.contact.window.0 } else { 0.0 };
+    let start = |own: &Analysis| origin(own, &tests);
     let mut series = Vec::new();
     for (colour, Signal { stem, analysis: own, .. }) in group.tests.iter().enumerate() {
         let stroke = |pattern| Some(Stroke { colour, pattern });
@@ -173,6 +175,22 @@ fn chart(group: &Group<'_>) -> Chart {
         series,
         ..Chart::default()
     }
+}
+
+/// Several tests stand over each other from the beginning of their contacts.
+fn origin(own: &Analysis, tests: &[&Analysis]) -> f64 {
+    if tests.len() > 1 { own.contact.window.0 } else { 0.0 }
+}
+
+/// What a figure shows: the contacts, once their length before and twice behind them; the rest is in the tables.
+fn shown(tests: &[&Analysis]) -> (f64, f64) {
+    let around = tests.iter().map(|own| {
+        let (start, end) = own.contact.window;
+        let origin = origin(own, tests);
+        (2.0 * start - end - origin, 3.0 * end - 2.0 * start - origin)
+    });
+    let all = around.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+    all.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
 }
 
 fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {

@@ -21,7 +21,7 @@ const MOST_FILES: usize = 1000;
 type Part = (String, Vec<u8>);
 
 /// Whether a path is a test in ISO-MME.
-pub(super) fn is_one(path: &Path) -> bool {
+pub(in crate::verbs) fn is_one(path: &Path) -> bool {
     path.is_dir() || has_ending(path, "mme") || has_ending(path, "zip")
 }
 
@@ -36,7 +36,7 @@ fn is_channel(name: &str) -> bool {
 }
 
 /// Reads the channels of a test.
-pub(super) fn read(path: &Path) -> Result<Vec<MmeChannel>, CliError> {
+pub(in crate::verbs) fn read(path: &Path) -> Result<Vec<MmeChannel>, CliError> {
     let file = path.to_string_lossy().into_owned();
     let wrong = |reason: String| CliError::SignalFile { file: file.clone(), reason };
     let parts = if has_ending(path, "zip") { of_zip(path) } else { of_folder(path) };

@@ -2,10 +2,10 @@
 
 mod files;
 mod limits;
-mod mme;
-mod object;
+pub(super) mod mme;
+pub(super) mod object;
 mod read;
-mod words;
+pub(super) mod words;
 mod zip;
 
 use std::path::PathBuf;
@@ -14,6 +14,7 @@ use clap::{
     Args,
     builder::{PossibleValue, PossibleValuesParser},
 };
+use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::units::parse_quantity;
 use dashpot_signal::{Analysis, Approach, Cfc, Channel, Padding, Removal, Settings};
@@ -168,10 +169,11 @@ impl SignalArguments {
             cfc: self.cfc,
             padding: padding.unwrap_or_default(),
             window,
+            error: 0.0,
             approach: self.velocity.map(|velocity| Approach {
                 velocity,
                 mass: self.mass,
-                falls: self.falls,
+                gravity: if self.falls { STANDARD_GRAVITY } else { 0.0 },
             }),
         })
     }

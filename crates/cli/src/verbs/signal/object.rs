@@ -24,7 +24,12 @@ fn channel(signal: &Signal) -> impl Serialize {
     let name = own.channel.name();
     let readings = own.readings.iter();
     let measures: Pairs<String, _> = readings
-        .map(|reading| (format!("{name}.{}", reading.measure.word()), measure(signal, reading)))
+        .map(|reading| {
+            (
+                format!("{name}.{}", reading.measure.word()),
+                ReadingObject::of(own.channel.dimension(), reading),
+            )
+        })
         .collect();
     object! {
         file: &signal.file,
@@ -65,16 +70,30 @@ fn channel(signal: &Signal) -> impl Serialize {
     }
 }
 
-fn measure(signal: &Signal, reading: &Reading) -> impl Serialize {
-    let dimension = reading.measure.dimension(signal.analysis.channel.dimension());
-    object! {
-        value: reading.value.ok(),
-        unit: si_unit(dimension),
-        time: reading.time,
-        window: reading.window,
-        error: reading.value.ok().map(|_| reading.error),
-        on_samples: reading.on_samples,
-        note_code: reading.value.err().map(Reason::code),
+/// A number read off a channel.
+#[derive(Serialize)]
+pub(in crate::verbs) struct ReadingObject {
+    value: Option<f64>,
+    unit: String,
+    time: Option<f64>,
+    window: Option<(f64, f64)>,
+    error: Option<f64>,
+    on_samples: Option<f64>,
+    note_code: Option<&'static str>,
+}
+
+impl ReadingObject {
+    /// That of a channel of this dimension.
+    pub(in crate::verbs) fn of(channel: Dimension, reading: &Reading) -> Self {
+        Self {
+            value: reading.value.ok(),
+            unit: si_unit(reading.measure.dimension(channel)),
+            time: reading.time,
+            window: reading.window,
+            error: reading.value.ok().map(|_| reading.error),
+            on_samples: reading.on_samples,
+            note_code: reading.value.err().map(Reason::code),
+        }
     }
 }
 

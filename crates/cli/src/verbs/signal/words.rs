@@ -25,7 +25,7 @@ pub(super) fn unit(value: f64, dimension: Dimension) -> Unit {
     Unit::suiting(value, &si_unit(dimension))
 }
 
-fn unit_of(measure: Measure, value: f64, channel: Dimension) -> Unit {
+pub(in crate::verbs) fn unit_of(measure: Measure, value: f64, channel: Dimension) -> Unit {
     if measure.is_index() { Unit::plain("1") } else { unit(value, measure.dimension(channel)) }
 }
 

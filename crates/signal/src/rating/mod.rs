@@ -1,0 +1,188 @@
+//! How well a model meets a test, by ISO/TS 18571.
+
+mod corridor;
+mod magnitude;
+mod phase;
+mod slope;
+
+use thiserror::Error;
+
+use crate::Channel;
+
+/// The steps at which both curves are compared \[s\]; the slopes are averaged over nine of them.
+const STEP: f64 = 1e-4;
+/// The shortest curve that has a rating, in samples.
+const FEWEST: usize = 20;
+/// The longest one; the time of warping grows with the square.
+const MOST: usize = 20_000;
+/// Weights of corridor, phase, magnitude and slope.
+const WEIGHTS: [f64; 4] = [0.4, 0.2, 0.2, 0.2];
+
+/// How well a model meets a test, by the scores of ISO/TS 18571: each between 0 and 1, where 1 is met.
+///
+/// Both curves are read at steps of 0.1 ms on the lines between their samples. The corridor is that of the curves as
+/// they are. The phase is told by the shift of the model, by up to a fifth of the length, with the largest
+/// correlation; magnitude and slope are compared behind that shift.
+///
+/// # References
+///
+/// `iso18571` in `docs/references.bib`. The constants are those of a public implementation, with which all scores agree
+/// (`tests/it/rating_reference.py`); the specification itself was not at hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rating {
+    /// How much of the time the model keeps within 5 % of the measured peak, and in part within 50 %.
+    pub corridor: f64,
+    /// How little it is shifted: 1 without a shift, 0 from 20 % of the length on.
+    pub phase: f64,
+    /// How little the areas differ where both are warped onto each other: 0 from 50 % on.
+    pub magnitude: f64,
+    /// How little the slopes differ: 0 from twice the measured ones on.
+    pub slope: f64,
+    /// How much later the model is than the test \[s\].
+    pub later: f64,
+}
+
+/// Why there is no rating.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum Unrated {
+    /// The common part is shorter than 2 ms.
+    #[error("the curves have less than 2 ms in common")]
+    TooShort,
+    /// It is longer than 2 s.
+    #[error("the curves have more than 2 s in common, and an impact is shorter")]
+    TooLong,
+    /// The test is zero throughout.
+    #[error("what was measured is zero throughout")]
+    Zero,
+}
+
+/// What a rating is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Grade {
+    /// Up to 0.58.
+    Poor,
+    /// Above 0.58.
+    Fair,
+    /// Above 0.80.
+    Good,
+    /// Above 0.94.
+    Excellent,
+}
+
+impl Grade {
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Poor => "poor",
+            Self::Fair => "fair",
+            Self::Good => "good",
+            Self::Excellent => "excellent",
+        }
+    }
+}
+
+impl Unrated {
+    /// Its word for programs.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::TooShort => "too-short",
+            Self::TooLong => "too-long",
+            Self::Zero => "zero",
+        }
+    }
+}
+
+/// Two curves at the same even steps.
+#[derive(Debug, Clone, Copy)]
+struct Pair<'p> {
+    test: &'p [f64],
+    model: &'p [f64],
+}
+
+impl Rating {
+    /// That of a model beside a test, over a window \[s\] in which both have samples.
+    ///
+    /// # Errors
+    ///
+    /// [`Unrated`].
+    pub fn of(test: &Channel, model: &Channel, window: (f64, f64)) -> Result<Self, Unrated> {
+        let count = ((window.1 - window.0) / STEP * (1.0 + 1e-12)).floor();
+        if !(count >= (FEWEST - 1) as f64) {
+            return Err(Unrated::TooShort);
+        }
+        if count >= MOST as f64 {
+            return Err(Unrated::TooLong);
+        }
+        let mut places = Vec::new();
+        let mut at = 0.0;
+        while at <= count {
+            places.push((window.0 + at * STEP).min(window.1));
+            at += 1.0;
+        }
+        let read = |own: &Channel| places.iter().map(|time| own.value(*time)).collect::<Vec<_>>();
+        let (test, model) = (read(test), read(model));
+        if test.iter().all(|own| *own == 0.0) {
+            return Err(Unrated::Zero);
+        }
+        Ok(Self::of_pair(Pair { test: &test, model: &model }))
+    }
+
+    fn of_pair(pair: Pair<'_>) -> Self {
+        let shift = phase::shift(pair);
+        let shifted = pair.shifted(shift);
+        Self {
+            corridor: corridor::score(pair),
+            phase: phase::score(shift, pair.test.len()),
+            magnitude: magnitude::score(shifted),
+            slope: slope::score(shifted),
+            later: shift as f64 * STEP,
+        }
+    }
+
+    /// The weighted sum of all four: 0.4 of the corridor, 0.2 of each other.
+    pub fn overall(&self) -> f64 {
+        let parts = [self.corridor, self.phase, self.magnitude, self.slope];
+        parts.iter().zip(WEIGHTS).map(|(own, weight)| own * weight).sum()
+    }
+
+    /// What the overall rating is called.
+    pub fn grade(&self) -> Grade {
+        match self.overall() {
+            own if own > 0.94 => Grade::Excellent,
+            own if own > 0.80 => Grade::Good,
+            own if own > 0.58 => Grade::Fair,
+            _ => Grade::Poor,
+        }
+    }
+}
+
+impl<'p> Pair<'p> {
+    /// What both have in common where the model is so many steps earlier.
+    fn shifted(self, steps: isize) -> Self {
+        let count = self.test.len();
+        let by = steps.unsigned_abs();
+        let (early, late) = (..count - by, by..);
+        let Self { test, model } = self;
+        if steps < 0 {
+            Self { test: &test[late], model: &model[early] }
+        } else {
+            Self { test: &test[early], model: &model[late] }
+        }
+    }
+
+    fn values(self) -> impl Iterator<Item = (f64, f64)> + use<'p> {
+        self.test.iter().copied().zip(self.model.iter().copied())
+    }
+}
+
+/// A score that falls with the difference of two curves in parts of the measured one, from 1 to 0 at `most`.
+fn falling(difference: f64, measured: f64, most: f64) -> f64 {
+    if difference == 0.0 {
+        return 1.0;
+    }
+    (1.0 - difference / (most * measured)).max(0.0)
+}
+
+#[cfg(test)]
+mod tests;
