@@ -58,7 +58,10 @@ fn what_became_of_a_curve_is_part_of_every_result() {
     let warning = &result["scene"]["warnings"][0];
     assert_eq!(warning["line"], 4);
     assert!(warning["message"].as_str().unwrap().contains("of the peak, in line 6"), "{warning}");
-    assert_eq!(codes(&result["scene"]["notes"]), ["lines-left-out", "way-back-left-out"]);
+    assert_eq!(
+        codes(&result["scene"]["notes"]),
+        ["weight-left-out", "lines-left-out", "way-back-left-out"]
+    );
     let page = fs::read_to_string(own.join("report.html")).unwrap();
     for told in ["of the peak, in line 6", "line 9, after the largest", "line 1 is no part"] {
         assert!(page.contains(told), "{told}");
@@ -70,7 +73,10 @@ fn what_became_of_a_curve_is_part_of_every_result() {
     for at in 0..2 {
         let own = &result["runs"][at]["scene"];
         assert_eq!(own["warnings"][0]["line"], 4);
-        assert_eq!(codes(&own["notes"]), ["lines-left-out", "way-back-left-out"]);
+        assert_eq!(
+            codes(&own["notes"]),
+            ["weight-left-out", "lines-left-out", "way-back-left-out"]
+        );
     }
     let page = fs::read_to_string(designs.join("report.html")).unwrap();
     for told in
@@ -97,7 +103,10 @@ fn a_sweep_says_what_was_asked_of_it() {
     assert_eq!(asked["vary"], "V=1..2 m/s; pad.thickness=2..3 cm");
     assert_eq!(asked["set"], "head.mass=2 kg");
     assert_eq!(asked["sample, seed"], "8, 3");
-    assert_eq!(codes(&result["scene_notes"]), ["lines-left-out", "way-back-left-out"]);
+    assert_eq!(
+        codes(&result["scene_notes"]),
+        ["weight-left-out", "lines-left-out", "way-back-left-out"]
+    );
     let page = fs::read_to_string(own.join("report.html")).unwrap();
     for told in ["pad.thickness=2..3 cm", "head.mass=2 kg", "line 9, after the largest"] {
         assert!(page.contains(told), "{told}");

@@ -137,6 +137,11 @@ pub(super) fn remark(all: &[Compared<'_>]) -> Option<String> {
     }
 }
 
+/// Whether a value is zero within its error.
+fn is_zero(value: f64, reading: &Reading) -> bool {
+    value.abs() <= reading.error
+}
+
 /// What is read off a measured curve, and off some runs at the same times.
 pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
     let first = all.first()?;
@@ -148,12 +153,15 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
         let value = measured.value.ok()?;
         let unit = unit_of(measured.measure, value, channel);
         let number = |reading: &Reading| match reading.value {
+            Ok(value) if is_zero(value, reading) => "0".to_owned(),
             Ok(value) => unit.number(value, digits(value, Some(reading.error), MOST_DIGITS)),
             Err(_) => "–".to_owned(),
         };
         let error = |reading: &Reading| match reading.value {
-            Ok(value) if value != 0.0 => format!("±{}", bound(reading.error / value.abs())),
-            _ => String::new(),
+            Ok(_) if reading.error == 0.0 => String::new(),
+            Ok(value) if is_zero(value, reading) => format!("±{}", unit.number(reading.error, 1)),
+            Ok(value) => format!("±{}", bound(reading.error / value.abs())),
+            Err(_) => String::new(),
         };
         let word = measured.measure.word();
         let name = match &*unit.symbol {
@@ -162,7 +170,7 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
         };
         let mut cells = vec![name, number(measured), error(measured)];
         if is_single {
-            let apart = model.value.ok().filter(|_| value != 0.0);
+            let apart = model.value.ok().filter(|_| !is_zero(value, measured));
             let apart = apart.map(|model| percent_signed((model - value) / value.abs()));
             cells.extend([number(model), error(model), apart.unwrap_or_default()]);
         } else {
