@@ -399,3 +399,18 @@ fn a_sweep_tells_where_a_limit_is_crossed_and_which_number_moves_nothing() {
     let both = told(&["--vary", "pad.spring=30..42 kN/m,3", "--vary", "pad.thickness=7..8 cm,2"]);
     assert!(both.contains(why) && !both.contains("`pad.spring` moves"), "{both}");
 }
+
+#[test]
+fn a_sweep_is_enforced_at_every_point() {
+    let (_folder, path) = written("pad.peak-force = \"2 kN\"");
+    // 5 √(4 K) is 2 kN at 40 kN/m.
+    let done = |vary: &str, more: &[&str]| {
+        code(&run(&[&["sweep", &path, "--vary", vary][..], more].concat()))
+    };
+    assert_eq!(done("pad.spring=30..39 kN/m,3", &["--enforce"]), 0);
+    assert_eq!(done("pad.spring=30..42 kN/m,3", &["--enforce"]), 4);
+    assert_eq!(done("pad.spring=30..42 kN/m,3", &[]), 0);
+    let (_folder, bare) = written("");
+    let output = run(&["sweep", &bare, "--vary", "pad.spring=30..39 kN/m,3", "--enforce"]);
+    assert!(code(&output) == 2 && said(&output).contains("no limit to enforce"), "{}", err(&output));
+}

@@ -12,17 +12,21 @@ mod unmoved;
 mod varied;
 mod words;
 
-use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+use std::{
+    num::NonZero,
+    path::{Path, PathBuf},
+    thread::available_parallelism,
+};
 
 use clap::{Args, ValueEnum};
 use dashpot_analysis::{
-    Limit, RunError,
+    Judgement, Limit, RunError,
     sweep::{
         Column, Estimates, Grid, Pose, ScenePoint, SweepOptions, SweepReport, columns,
         sweep as solve,
     },
 };
-use dashpot_scene::{Diagnostics, Posed, Scene, pose, read};
+use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
 use serde::Serialize;
 
 use self::{
@@ -67,6 +71,9 @@ pub(crate) struct SweepArguments {
     scene: SceneArguments,
     #[command(flatten)]
     limits: LimitArguments,
+    /// Exits with 4 unless every point keeps every limit, however the errors lie.
+    #[arg(long, conflicts_with = "gradient")]
+    enforce: bool,
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
     #[arg(long, value_name = "NAME=VALUES", required_unless_present_any = ["points", "gradient"])]
     vary: Vec<String>,
@@ -184,6 +191,9 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         Ok::<_, RunError>(ScenePoint { network: posed.network, settings })
     };
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
+    if arguments.enforce && scene.limits.is_empty() && further.is_empty() {
+        return Err(CliError::NoLimits);
+    }
     let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
     let names = if arguments.gradient.is_empty() {
         files::names(&varied, &columns)
@@ -193,7 +203,7 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let of_text = |text: &str| {
         let posed = pose(text, &input.options(&set)).map_err(|faults| {
-            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+            let messages = faults.list.iter().map(Diagnostic::message);
             messages.collect::<Vec<_>>().join("; ")
         })?;
         scene_point(posed).map_err(|error| error.to_string())
@@ -203,21 +213,8 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
-    let mut shown = checked.warnings.list;
-    let before = shown.len();
-    // A fault at the ends of a range is shown in the scene's text, with the value under a caret.
-    for point in varied.telling(&grid) {
-        let text = varied.text_at(&grid.places(point));
-        let found = read(&text, &input.options(&set)).map_err(CliError::Scene);
-        let in_line = varied.lines.get(point).zip(arguments.points.as_ref());
-        if let (Err(_), Some((line, file))) = (&found, in_line) {
-            note(&format!("line {line} of `{}` gives these values:", file.display()));
-        }
-        let found = found?.warnings;
-        let known: Vec<String> = shown.iter().map(dashpot_scene::Diagnostic::message).collect();
-        shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
-    }
-    terminal.diagnose(&Diagnostics { list: shown.split_off(before), omitted: 0 });
+    let of = (&varied, &grid, arguments.points.as_deref());
+    terminal.diagnose(&of_ends(of, (&input, &set), checked.warnings.list)?);
     if !arguments.gradient.is_empty() {
         return gradient::gradient(
             arguments,
@@ -236,8 +233,41 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     let has_folder = folder.is_some();
     emit(&swept, arguments.json, folder, terminal)?;
     figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
-    let failed = swept.report.gaps.iter().filter(|gap| gap.column.is_none()).count();
-    Ok(if failed == swept.report.points() { Status::RunFailed } else { Status::Done })
+    Ok(status(&swept.report, arguments.enforce))
+}
+
+/// What became of all points, where each has to keep every limit if that is `enforced`.
+fn status(report: &SweepReport, enforced: bool) -> Status {
+    let failed = report.gaps.iter().filter(|gap| gap.column.is_none()).count();
+    let is_kept = |limit| report.judged(limit).iter().all(|own| *own == Some(Judgement::Pass));
+    match (failed == report.points(), (0..report.limits.len()).all(is_kept)) {
+        (true, _) => Status::RunFailed,
+        (false, false) if enforced => Status::LimitNotKept,
+        (false, _) => Status::Done,
+    }
+}
+
+/// What is odd at the ends of ranges and of words besides what is `known` of the scene. A fault there is shown in the
+/// scene's text, with the value under a caret.
+fn of_ends(
+    (varied, grid, file): (&Varied, &Grid, Option<&Path>),
+    (input, set): (&Input, &[(String, String)]),
+    known: Vec<Diagnostic>,
+) -> Result<Diagnostics, CliError> {
+    let mut shown = known;
+    let before = shown.len();
+    for point in varied.telling(grid) {
+        let text = varied.text_at(&grid.places(point));
+        let found = read(&text, &input.options(set)).map_err(CliError::Scene);
+        let in_line = varied.lines.get(point).zip(file);
+        if let (Err(_), Some((line, file))) = (&found, in_line) {
+            note(&format!("line {line} of `{}` gives these values:", file.display()));
+        }
+        let found = found?.warnings;
+        let known: Vec<String> = shown.iter().map(Diagnostic::message).collect();
+        shown.extend(found.list.into_iter().filter(|own| !known.contains(&own.message())));
+    }
+    Ok(Diagnostics { list: shown.split_off(before), omitted: 0 })
 }
 
 fn solved(
