@@ -23,6 +23,7 @@ mod designs;
 mod displaced_starts;
 mod docs;
 mod driven_contacts;
+mod driven_records;
 mod durations;
 mod effects;
 mod equivalence;

@@ -21,7 +21,7 @@ pub enum Note {
     NoLength,
     /// The window is shorter than the time that counts.
     WindowTooShort,
-    /// The node is no mass that the forces on it move.
+    /// The node has no mass, or is held fixed.
     Massless,
     /// The thickness of the element is not known.
     NoThickness,
@@ -138,7 +138,7 @@ impl fmt::Display for Note {
             Self::RunEndsBefore => "the run ends before the window does",
             Self::NoLength => "the window has no length",
             Self::WindowTooShort => "the window is shorter than the time that counts",
-            Self::Massless => "the node is no mass that the forces on it move",
+            Self::Massless => "the node has no mass, or is held fixed",
             Self::NoThickness => "its thickness is not known: give it a `thickness` or `layers`",
             Self::NoArea => "its area is not known: give it `thickness` and `area`, or `layers`",
             Self::NoForce => "the force is undetermined in a loop of rigid links",

@@ -32,7 +32,7 @@ pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_named_model};
-pub use models::notes::{ModelNote, Remark};
+pub use models::notes::{ModelNote, Remark, RestRemoved};
 pub use outline::{OutlineRow, outline};
 pub use quantities::bare::BareNumber;
 pub use quantities::scatter::ScatterFault;

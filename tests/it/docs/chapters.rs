@@ -13,7 +13,7 @@ const CHAPTERS: [(&str, usize, usize); 16] = [
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
-    ("signal", 0, 0),
+    ("signal", 5, 2),
     ("jobs/protector", 2, 0),
     ("jobs/parcel", 2, 2),
     ("jobs/liners", 4, 2),

@@ -334,7 +334,7 @@ impl<'a> Solution<'a> {
     ///
     /// # Errors
     ///
-    /// [`Note::Massless`] of a node that is no mass that the forces on it move.
+    /// [`Note::Massless`] of a node that has no mass, or is held fixed.
     pub fn node_acceleration(&self, node: usize) -> Result<&Signal, Note> {
         let acceleration = self.assembly.nodes[node].acceleration.ok_or(Note::Massless)?;
         Ok(self.signal(acceleration))

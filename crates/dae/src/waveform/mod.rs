@@ -115,6 +115,21 @@ impl Waveform {
         Self::new(pieces).map(|own| Self { given, ..own })
     }
 
+    /// The motion whose acceleration this is from `t = 0` on: it begins at zero with this velocity. Lines between points
+    /// are integrated to cubics.
+    ///
+    /// Returns `None` as [`integral`](Self::integral) does.
+    pub fn motion(&self, velocity: f64) -> Option<Self> {
+        self.integral()?.plus(velocity).integral()
+    }
+
+    /// The same function, larger by a constant at all times.
+    #[must_use]
+    pub fn plus(&self, constant: f64) -> Self {
+        let raised = |piece: &Piece| Piece { value: piece.value + constant, ..*piece };
+        Self { pieces: self.pieces.iter().map(raised).collect(), given: self.given }
+    }
+
     /// The same function with time counted from `start`; what lies before it is cut off.
     #[must_use]
     pub fn since(&self, start: f64) -> Self {

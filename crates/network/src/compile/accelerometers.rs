@@ -30,15 +30,20 @@ struct Shared {
 }
 
 impl Accelerometers {
-    /// What an accelerometer on the node reads: its acceleration less the body force per mass.
+    /// What an accelerometer on the node reads: its acceleration less the body force per mass. `None` on a node
+    /// without mass, and on one that is fixed.
     pub(super) fn row(&mut self, network: &Network, parts: &Parts<'_>, node: usize) -> Option<Row> {
         let mass = network.nodes[node].mass;
-        if mass <= 0.0 || network.nodes[node].support != Support::Free {
+        if mass <= 0.0 || network.nodes[node].support == Support::Fixed {
             return None;
         }
         let body = parts.bodies.of_joint[node];
-        let role = parts.bodies.all[body].role;
-        if role == Role::Massless || !matches!(role, Role::Mass(_)) && !parts.expansion.switches {
+        let is_known = match parts.bodies.all[body].role {
+            Role::Mass(_) | Role::Prescribed(_) => true,
+            Role::Fixed => parts.expansion.switches,
+            Role::Massless => false,
+        };
+        if !is_known {
             return None;
         }
         if parts.bodies.all[body].joints.len() == 1 {
@@ -69,7 +74,7 @@ impl Shared {
         }
     }
 
-    /// On a node that a closed contact holds to a fixed or prescribed body, the acceleration is that of
+    /// On a node whose motion is given, or that a closed contact holds to such a body, the acceleration is that of
     /// the body.
     fn row(&self, parts: &Parts<'_>, (node, mass): (usize, f64)) -> Row {
         let body = &parts.bodies.all[parts.bodies.of_joint[node]];

@@ -25,8 +25,8 @@ const SAME: f64 = 1e-13;
 ///
 /// let pulse = HalfSine { peak: 400.0, duration: 0.011, start: 0.0 }.waveform()?;
 /// let motion = pulse.integral().and_then(|speed| speed.integral()).unwrap();
-/// let found = Recognized::as_acceleration(&motion).unwrap();
-/// assert_eq!(found.word, "half-sine");
+/// let (found, speed) = Recognized::as_acceleration(&motion).unwrap();
+/// assert_eq!((found.word, speed), ("half-sine", 0.0));
 /// assert!(matches!(found.values[0], Value::Number(peak) if (peak - 400.0).abs() < 1e-10));
 /// # Ok::<(), dashpot_network::parameters::InvalidParameter>(())
 /// ```
@@ -50,14 +50,20 @@ impl Recognized {
             .or_else(|| of_kind(waveform, &haversine(waveform)?))
     }
 
-    /// The kind of the acceleration of a motion that begins at rest, at zero, at `t = 0`; `None` where
-    /// it is no such motion, or its pieces do not show the kind.
-    pub fn as_acceleration(motion: &Waveform) -> Option<Self> {
+    /// The kind of the acceleration of a motion that begins at zero at `t = 0`, and the velocity \[m/s\] with which it
+    /// begins; `None` where it is no such motion, or its pieces do not show the kind.
+    pub fn as_acceleration(motion: &Waveform) -> Option<(Self, f64)> {
+        let speed = motion.piece_at(0.0).derivative(1, 0.0);
+        // What rounding leaves of a start from rest is none.
+        [0.0, speed].into_iter().find_map(|speed| Some((Self::of_motion(motion, speed)?, speed)))
+    }
+
+    fn of_motion(motion: &Waveform, speed: f64) -> Option<Self> {
         let pieces =
             motion.pieces().iter().map(second_derivative).collect::<Option<Vec<Piece>>>()?;
         let is_of = |own: &Self| {
             let again = (own.make)(&own.values).ok();
-            let again = again.and_then(|again| again.integral()).and_then(|own| own.integral());
+            let again = again.and_then(|again| again.motion(speed));
             again.is_some_and(|again| is_same(motion, &again))
         };
         // What lies before t = 0 is not kept by the motion.
@@ -224,8 +230,9 @@ mod tests {
             ];
             for (pulse, word) in pulses {
                 let motion = pulse.integral().and_then(|own| own.integral()).unwrap();
-                let found = [Recognized::of(&pulse), Recognized::as_acceleration(&motion)]
-                    .map(Option::unwrap);
+                let (of_motion, speed) = Recognized::as_acceleration(&motion).unwrap();
+                assert_eq!(speed, 0.0);
+                let found = [Recognized::of(&pulse).unwrap(), of_motion];
                 for own in found {
                     assert_eq!(own.word, word);
                     for (found, known) in numbers(&own).iter().zip([peak, duration, start]) {
@@ -236,6 +243,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_motion_that_begins_with_a_speed_shows_it() {
+        let points = vec![(0.0, 0.0), (0.01, 900.0), (0.02, -100.0), (0.03, 0.0)];
+        let pulse = Table::of(points).waveform().unwrap();
+        let (found, speed) = Recognized::as_acceleration(&pulse.motion(-4.5).unwrap()).unwrap();
+        assert_eq!((found.word, speed), (Table::KIND, -4.5));
+        assert!(is_same(&found.with(&found.values).unwrap(), &pulse));
     }
 
     #[test]

@@ -72,7 +72,7 @@ pub(crate) fn note_held(reading: &Reading<'_>, held: &[HeldTable]) {
         } else {
             entries.nodes.get(own.name.as_str()).copied()
         };
-        let keys = ["force", "motion", "acceleration"];
+        let keys = ["force", "motion", "acceleration", "velocity"];
         let value = entry.and_then(|entry| keys.iter().find_map(|key| value_of(entry, key)));
         let place = value.map(|item| item.place).or(entry.map(|entry| entry.key_place));
         let message = own.message(|value, dimension| format_short(value, dimension, 4));

@@ -37,7 +37,8 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
     for (id, node) in network.nodes().filter(|(id, _)| *id != network.ground()) {
         let Some(&entry) = entries.get(node.name.as_str()) else { continue };
         let [starting, ending] = ends[id.index()];
-        if starting + ending == 0 {
+        let is_driven = matches!(node.support, Support::Prescribed(_));
+        if starting + ending == 0 && !is_driven {
             let message = format!("no element touches `{}`", node.name);
             let help = "name it in the `between` of an element, or remove it";
             reading.faults.warning(entry.key_place, Fault::odd(message, help));
@@ -47,13 +48,20 @@ pub(crate) fn review(reading: &Reading<'_>, network: &Network, duration: f64) {
         }
     }
     let driving = Driving::of(network);
-    for (section, key) in [("loads", "force"), ("nodes", "motion"), ("nodes", "acceleration")] {
+    for (section, key) in
+        [("loads", "force"), ("nodes", "motion"), ("nodes", "velocity"), ("nodes", "acceleration")]
+    {
         for own in reading.section(section) {
-            let Some(driven) = value_of(own, key) else { continue };
+            let driven = value_of(own, key).filter(|own| own.table().is_some());
+            let Some(driven) = driven else { continue };
             time_table(reading, driven, duration);
             if let Some(waveform) = driving.named(section, &own.key) {
                 file(reading, driven, waveform, duration);
-                if key == "acceleration" {
+                // What nothing touches may go where it will.
+                let is_held = network
+                    .nodes()
+                    .any(|(id, node)| node.name == own.key.as_str() && ends[id.index()] != [0, 0]);
+                if key == "acceleration" && is_held {
                     drift(reading, (&own.key, driven), waveform, duration);
                 }
             }

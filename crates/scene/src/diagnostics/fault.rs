@@ -7,6 +7,7 @@ use dashpot_network::{
     NetworkError,
     parameters::{Dimension, InvalidParameter},
 };
+use dashpot_signal::{ChannelFault, SettingsFault};
 use thiserror::Error;
 
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
@@ -212,6 +213,12 @@ pub enum Fault {
     /// A file of numbers that is no table.
     #[error("{0}")]
     Table(TableFault),
+    /// Rows that are no record.
+    #[error("the rows are no record that can be filtered or have an offset: {0}")]
+    Samples(ChannelFault),
+    /// A record of which cannot be made what is asked for.
+    #[error("{0}")]
+    Record(SettingsFault),
     /// A file of numbers without numbers.
     #[error("`{path}` has no row of numbers")]
     NoRows { path: String },

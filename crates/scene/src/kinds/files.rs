@@ -34,10 +34,10 @@ struct Wishes<'i> {
 /// Rows of two columns of a file, with where they are from.
 #[derive(Clone)]
 pub(super) struct FileRows<'d> {
-    file: &'d TableFile,
-    rows: Vec<Row>,
+    pub(super) file: &'d TableFile,
+    pub(super) rows: Vec<Row>,
     /// The place of the file's name.
-    place: Place,
+    pub(super) place: Place,
 }
 
 impl<'d> KindReader<'d> {
@@ -71,11 +71,15 @@ impl<'d> KindReader<'d> {
         let scale = match table.take(SCALE) {
             Some(own) => {
                 let number = Dimension::NUMBER;
-                Some(self.quantities.within(Range::Positive, SCALE, &own.item, number)?)
+                let is_record = parameter.kind == ParameterKind::TimeTable;
+                let range = if is_record { Range::NotZero } else { Range::Positive };
+                Some(self.quantities.within(range, SCALE, &own.item, number)?)
             }
             None => None,
         };
-        self.rows(&name?.item, &Wishes { columns: columns?, units: units?, scale }, parameter)
+        let treatment = self.treatment(table, parameter)?;
+        let wishes = Wishes { columns: columns?, units: units?, scale };
+        self.treated(self.rows(&name?.item, &wishes, parameter)?, treatment)
     }
 
     fn rows(self, name: &Item, wishes: &Wishes<'_>, parameter: &Parameter) -> Option<FileRows<'d>> {

@@ -5,6 +5,7 @@ mod file_units;
 mod files;
 pub(crate) mod parameters;
 mod points;
+pub(crate) mod records;
 mod value;
 
 use dashpot_network::{

@@ -64,12 +64,37 @@ pub enum Remark {
         /// The first and the last line, from 1.
         lines: [usize; 2],
     },
+    /// What a record reads at rest was taken off.
+    RestRemoved(RestRemoved),
     /// A pad gives back all that it takes up, where what is asked for hangs on what it loses.
     Elastic,
     /// Gravity \[m/s²\] pulls away from the support.
     Upward(f64),
     /// The mean of a number with scatter, as it is written, stands for it.
     Mean(String),
+}
+
+/// What a record reads at rest, which was taken off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestRemoved {
+    /// Mean before the pulse, in SI units.
+    pub value: f64,
+    /// How far the reading at rest during the pulse may be from it.
+    pub error: f64,
+    /// What was measured.
+    pub dimension: Dimension,
+    /// From when to when in the file the mean was taken \[s\].
+    pub window: (f64, f64),
+}
+
+impl fmt::Display for RestRemoved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = |value, digits| format_short(value, self.dimension, digits);
+        let time = |time| format_short(time, Dimension::TIME, 4);
+        let (from, to) = (time(self.window.0), time(self.window.1));
+        let (value, error) = (of(self.value, 3), of(self.error, 2));
+        write!(f, "it reads {value} ± {error} at rest from {from} to {to}, which is taken off")
+    }
 }
 
 impl Remark {
@@ -85,6 +110,7 @@ impl Remark {
             Self::ConstantArea { .. } => "constant-area",
             Self::LeftOut(_) => "lines-left-out",
             Self::WayBack { .. } => "way-back-left-out",
+            Self::RestRemoved(_) => "rest-removed",
             Self::Elastic => "elastic",
             Self::Upward(_) => "upward",
             Self::Mean(_) => "mean",
@@ -141,6 +167,7 @@ impl fmt::Display for Remark {
                 };
                 write!(f, "{lines}: `{curve}` is a curve of loading alone")
             }
+            Self::RestRemoved(own) => write!(f, "{own}"),
             Self::Elastic => write!(
                 f,
                 "its law is elastic: the peak counts, but rebound, impulse, energy and HIC do not show what a real \

@@ -389,9 +389,8 @@ impl<'d> Quantities<'d> {
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
                 Dimension::MASS if expected == Dimension::ACCELERATION && is_named => fault
                     .with_help("in [values] and in arithmetic `g` is the gram: write `g0` there"),
-                Dimension::VELOCITY if self.is_motion => {
-                    fault.with_help("a motion is a displacement: integrate the velocity")
-                }
+                Dimension::VELOCITY if self.is_motion => fault
+                    .with_help("a motion is a displacement: write `velocity` in place of `motion`"),
                 Dimension::NUMBER if expected == Dimension::LENGTH && self.element.is_some() => {
                     let help = self.element.map(|element| element.help(&shown(), quantity.value));
                     fault.with_help(help.unwrap_or_default())

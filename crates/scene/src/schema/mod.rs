@@ -116,6 +116,7 @@ fn definitions() -> Value {
     add("node", node());
     add("force-function", function(Dimension::FORCE));
     add("length-function", function(Dimension::LENGTH));
+    add("velocity-function", function(Dimension::VELOCITY));
     add("acceleration-function", function(Dimension::ACCELERATION));
     add(
         "load",
@@ -136,7 +137,13 @@ fn definitions() -> Value {
 fn node() -> Value {
     let properties = [
         ("mass", described_as(reference("mass"), "mass [kg], zero or positive; none by default")),
-        ("velocity", described_as(reference("velocity"), "start velocity: makes it an impactor")),
+        (
+            "velocity",
+            json!({
+                "description": "start velocity: makes it an impactor; a function of time gives its motion",
+                "anyOf": [reference("velocity"), reference("velocity-function")],
+            }),
+        ),
         (
             "drop",
             described_as(
@@ -165,7 +172,7 @@ fn node() -> Value {
             "acceleration",
             described_as(
                 reference("acceleration-function"),
-                "its acceleration over time, from rest at t = 0",
+                "its acceleration over time, from t = 0 on; it begins at rest, or with `velocity`",
             ),
         ),
     ];

@@ -4,7 +4,7 @@ use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
 use serde_json::{Map, Value, json};
 
 use crate::{
-    kinds::{are_file, is_points},
+    kinds::{are_file, is_points, is_table, records::RECORD_KEYS},
     quantities::{
         basis::{Basis, is_size},
         words::{described, example_text},
@@ -57,10 +57,28 @@ impl Values {
         let mut table = of_file();
         if let Some(properties) = table["properties"].as_object_mut() {
             properties.extend(self.parameters(&others));
+            if is_table(all) {
+                properties.extend(self.of_record());
+            }
         }
         let required = others.iter().filter(|own| own.default.is_none()).map(|own| own.name);
         table["required"] = ["file"].into_iter().chain(required).collect();
         table
+    }
+
+    /// What becomes of a record before it is a function of time.
+    fn of_record(self) -> Map<String, Value> {
+        let offset = json!({ "anyOf": [{ "const": "auto" }, named_quantity(self.driven)] });
+        let cfc = json!({ "type": "number", "exclusiveMinimum": 0 });
+        let all = [
+            described_as(reference("time"), "how much later it is than in the file"),
+            described_as(
+                offset,
+                "what is taken off; `auto`: what it reads at rest before the pulse",
+            ),
+            described_as(cfc, "filters by a channel frequency class of SAE J211"),
+        ];
+        RECORD_KEYS.into_iter().map(str::to_owned).zip(all).collect()
     }
 
     /// The parameters by their names.

@@ -1,7 +1,7 @@
 //! `[elements]`: models between nodes, and pads of layers with mass.
 
 use dashpot_network::{
-    Network, NodeId,
+    Network, NodeId, Support,
     layers::{Layer, Layers, MOST_SEGMENTS, Resolution},
     parameters::{Dimension, InvalidParameter, Range},
 };
@@ -32,7 +32,9 @@ pub(crate) fn read_elements<'d>(
         reading.elements.insert(&entry.key, entry);
         read_element(reading, models, entry, network);
     }
-    if reading.library.section("elements").is_none() {
+    // What is driven moves without any.
+    let is_driven = network.nodes().any(|own| matches!(own.1.support, Support::Prescribed(_)));
+    if reading.library.section("elements").is_none() && !is_driven {
         reading.faults.missing(None, Fault::MissingSection { section: "elements" });
     }
 }

@@ -41,8 +41,12 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         .map(|mass| quantities.within(range, "mass", &mass.item, Dimension::MASS));
     let [velocity, drop, energy] =
         one_of(reading, ["velocity", "drop", "energy"].map(|key| (key, table.take(key))));
-    let velocity = velocity
-        .map(|velocity| quantities.read(&velocity.item, Dimension::VELOCITY).map(Start::Velocity));
+    // A function of time gives the motion.
+    let (moving, velocity) = match velocity {
+        Some(own) if own.item.table().is_some() => (Some(own), None),
+        own => (None, own),
+    };
+    let velocity = velocity.map(|own| quantities.read(&own.item, Dimension::VELOCITY));
     let drop = drop.map(|drop| {
         quantities.within(range, "drop", &drop.item, Dimension::LENGTH).map(Start::Drop)
     });
@@ -58,8 +62,9 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
     let position = table
         .take("position")
         .map(|own| quantities.of("position").read(&own.item, Dimension::LENGTH));
-    let [fixed, motion, acceleration] =
-        one_of(reading, ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key))));
+    let given = ["fixed", "motion", "acceleration"].map(|key| (key, table.take(key)));
+    let [fixed, motion, acceleration, moving] =
+        one_of(reading, [given[0], given[1], given[2], ("velocity", moving)]);
     let is_fixed = fixed.map(|fixed| {
         let on = matches!(fixed.item.value, Content::Switch(true));
         if !on {
@@ -68,9 +73,12 @@ fn read_node<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Node> {
         on
     });
     let motion = motion.map(|motion| reading.waveform(motion, Dimension::LENGTH));
-    let shaken = acceleration.map(|acceleration| displacement(reading, acceleration));
+    let shaken = acceleration.map(|own| displacement(reading, own, velocity.flatten()));
+    let moved = moving.map(|own| integrated(reading, own));
+    // The velocity at the start is part of the motion.
+    let velocity = velocity.filter(|_| shaken.is_none()).map(|own| own.map(Start::Velocity));
     table.finish();
-    let support = match (is_fixed, motion.or(shaken)) {
+    let support = match (is_fixed, motion.or(shaken).or(moved)) {
         (Some(_), _) => Support::Fixed,
         (None, Some(motion)) => Support::Prescribed(motion?),
         (None, None) => Support::Free,
@@ -96,29 +104,49 @@ fn one_of<'d, const N: usize>(
     keys.map(|(_, entry)| entry)
 }
 
-/// The displacement of a node at rest at `t = 0` that has the acceleration in `entry` from then on.
-fn displacement<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Waveform> {
+/// The displacement of a node at `t = 0` that has the acceleration in `entry` from then on, and begins at rest or with a
+/// velocity.
+fn displacement<'d>(
+    reading: &Reading<'d>,
+    entry: &'d Entry,
+    velocity: Option<f64>,
+) -> Option<Waveform> {
     let acceleration = reading.waveform(entry, Dimension::ACCELERATION)?;
-    let twice = acceleration.integral().and_then(|velocity| velocity.integral());
-    if twice.is_none() {
-        let is_swept = acceleration.pieces().iter().any(Piece::is_swept);
-        let is_cubic =
-            acceleration.pieces().iter().any(|own| !own.is_constant(1) && !own.is_wave());
+    let twice = acceleration.motion(velocity.unwrap_or(0.0));
+    without_closed_form(reading, ("acceleration", entry), &acceleration, twice)
+}
+
+/// The displacement of a node that has the velocity in `entry` from `t = 0` on.
+fn integrated<'d>(reading: &Reading<'d>, entry: &'d Entry) -> Option<Waveform> {
+    let velocity = reading.waveform(entry, Dimension::VELOCITY)?;
+    without_closed_form(reading, ("velocity", entry), &velocity, velocity.integral())
+}
+
+/// The motion of a given function, or what keeps it from having one.
+fn without_closed_form(
+    reading: &Reading<'_>,
+    (key, entry): (&'static str, &Entry),
+    given: &Waveform,
+    motion: Option<Waveform>,
+) -> Option<Waveform> {
+    if motion.is_none() {
+        let is_swept = given.pieces().iter().any(Piece::is_swept);
+        let is_cubic = given.pieces().iter().any(|own| !own.is_constant(1) && !own.is_wave());
         let (range, found) = if is_swept || is_cubic {
             let found = if is_swept { "a chirp" } else { "a formula with powers of t" };
             ("such that its displacement has a closed form", found)
         } else {
             ("such that its displacement fits into double precision", "too large")
         };
-        let fault = Fault::Invalid(InvalidParameter::new("acceleration", range, found));
+        let fault = Fault::Invalid(InvalidParameter::new(key, range, found));
         let fault = if is_swept || is_cubic {
-            fault.with_help("give it as `motion`, a displacement, or the acceleration as a table")
+            fault.with_help(format!("give it as `motion`, a displacement, or the {key} as a table"))
         } else {
             fault
         };
         reading.faults.error(entry.item.place, fault);
     }
-    twice
+    motion
 }
 
 /// Reads the loads into `network`.

@@ -89,7 +89,10 @@ fn an_acceleration_is_no_motion() {
     let expected = "help: a motion is a displacement: write `acceleration` in place of `motion`";
     has(&motion("constant = \"5 g0\""), &["a length (m) is expected here", expected]);
     has(&motion("table = [[0, 0], [\"1 ms\", \"5 m/s^2\"]]"), &[expected]);
-    has(&motion("constant = \"3 m/s\""), &["a motion is a displacement: integrate the velocity"]);
+    has(
+        &motion("constant = \"3 m/s\""),
+        &["a motion is a displacement: write `velocity` in place of `motion`"],
+    );
     let shown = messages(&with("head = { mass = 1, drop = \"1 g0\" }", PAD, ""));
     has(&shown, &["help: for example \"2 cm\""]);
 }

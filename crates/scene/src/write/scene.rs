@@ -290,11 +290,13 @@ fn write_waveform(waveform: &Waveform, driven: Dimension) -> Option<String> {
     Recognized::of(waveform).map(|own| written(&own, driven))
 }
 
-/// The motion of a node as `motion = { … }`, or as the `acceleration` that it was made of.
+/// The motion of a node as `motion = { … }`, or as the `acceleration` that it was made of, with the velocity at its start.
 fn write_motion(motion: &Waveform) -> Option<String> {
     let acceleration = || {
-        let own = Recognized::as_acceleration(motion)?;
-        Some(format!("acceleration = {{ {} }}", written(&own, Dimension::ACCELERATION)))
+        let (own, speed) = Recognized::as_acceleration(motion)?;
+        let own = format!("acceleration = {{ {} }}", written(&own, Dimension::ACCELERATION));
+        let begin = || format!("velocity = {}, ", said(speed, Dimension::VELOCITY));
+        Some(if speed == 0.0 { own } else { begin() + &own })
     };
     let own = write_waveform(motion, Dimension::LENGTH);
     own.map(|own| format!("motion = {{ {own} }}")).or_else(acceleration)

@@ -15,11 +15,15 @@ pub(super) fn walk_motion(
     visit: &mut dyn Visit,
 ) -> Result<Waveform, InvalidParameter> {
     if Recognized::of(motion).is_none()
-        && let Some(own) = Recognized::as_acceleration(motion)
+        && let Some((own, speed)) = Recognized::as_acceleration(motion)
     {
         let name = format!("{node}.acceleration");
         let acceleration = walk_kind(&name, &own, Dimension::ACCELERATION, visit)?;
-        let again = acceleration.integral().and_then(|own| own.integral());
+        let speed = match speed {
+            0.0 => 0.0,
+            speed => visit.quantity(&format!("{node}.velocity"), Dimension::VELOCITY, speed),
+        };
+        let again = acceleration.motion(speed);
         let range = "such that its displacement fits into double precision";
         return again.ok_or_else(|| InvalidParameter::new("acceleration", range, name));
     }
