@@ -3,7 +3,7 @@
 //! A part of the calibration runs with all other tests. All of it, on 1000 scenes for each method,
 //! takes minutes and brings the tables of `docs/error-bars.md` up to date:
 //! `UPDATE_DOCS=1 cargo test --test it calibration::full -- --ignored --nocapture`. `DASHPOT_SCENES`
-//! and `DASHPOT_SEED` ask for other scenes, `DASHPOT_SCENE` prints one.
+//! and `DASHPOT_SEED` ask for other scenes, `DASHPOT_METHODS` for some methods only, `DASHPOT_SCENE` prints one.
 
 mod accuracy;
 mod linear;
@@ -32,7 +32,11 @@ const ALL: usize = 1000;
 const PART: usize = 40;
 /// The methods that take their error bars from further solutions.
 static METHODS: LazyLock<Vec<&str>> = LazyLock::new(|| {
-    methods::METHODS.iter().filter(|own| own.order.is_some()).map(|own| own.name).collect()
+    let steppers = methods::METHODS.iter().filter(|own| own.order.is_some()).map(|own| own.name);
+    match std::env::var("DASHPOT_METHODS") {
+        Ok(chosen) => steppers.filter(|name| chosen.split(',').any(|own| own == *name)).collect(),
+        Err(_) => steppers.collect(),
+    }
 });
 /// Part of the scenes in which the truth must lie inside of all bars.
 const COVERAGE: f64 = 0.99;

@@ -95,7 +95,7 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
     let report = scene.network.solve_with(&settings).unwrap();
     assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");
-    assert!(report.solver.why.contains("`bdf` does not reach"), "{}", report.solver.why);
+    assert!(report.solver.why.contains("`dop853` does not reach"), "{}", report.solver.why);
     let by_bdf = scene.network.solve_with(&settings.by_name("bdf").unwrap()).unwrap();
     assert!(admits(&by_bdf), "{:?}", by_bdf.solver);
 }

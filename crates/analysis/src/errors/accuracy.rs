@@ -1,6 +1,6 @@
 //! How accurate measures are: error bars from several solutions.
 
-use crate::{Ledger, Reading, Solution, measures::STANDARD_GRAVITY, report::FIRST_DIGIT};
+use crate::{Reading, Solution, measures::STANDARD_GRAVITY, report::FIRST_DIGIT};
 
 /// Roundings, in units of the measure's size, that no error bar falls short of: the solutions that
 /// it is taken from may agree by chance.
@@ -14,6 +14,9 @@ const SAFETY: f64 = 5.4;
 const SHARED: f64 = 0.2;
 /// How many of the relative bars of a run are smaller than that part is taken of.
 const RANK: f64 = 0.9;
+/// Part of itself that no measure of a stepping method is known better than: balances are solved no better, and
+/// where a kink ends the steps of all solutions alike they have that in common.
+const SOLVED: f64 = 1e-12;
 /// Part of the energy lost that no measure is known better than, energies apart.
 const OF_ENERGY: f64 = 0.1;
 
@@ -101,7 +104,7 @@ impl Evidence<'_> {
 /// what all solutions miss alike, because no tolerance but the room between their steps made them so.
 pub(crate) fn of_energy(reading: &Reading, unit: &str, (closure, turned_over): (f64, f64)) -> f64 {
     let lost = closure.abs();
-    let of_size = OF_ENERGY * lost * reading.size;
+    let of_size = (OF_ENERGY * lost).max(SOLVED) * reading.size;
     if unit == "J" { of_size.max(lost * turned_over) } else { of_size }
 }
 
@@ -175,11 +178,11 @@ const FAR_BEYOND: f64 = 10.0;
 /// The exponent of the injury measures.
 const INJURY: f64 = 2.5;
 
-/// The largest magnitude of any signal of this unit in the run, or for units that no signal has,
+/// The largest magnitude of any signal of this unit in the run in which so much energy is `turned_over` \[J\], or for units that no signal has,
 /// what the largest signals would add up to; of impulses the largest momentum. It is 1 for what has no unit.
-pub(crate) fn largest(solution: &Solution<'_>, energy: &Ledger, unit: &str) -> f64 {
+pub(crate) fn largest(solution: &Solution<'_>, turned_over: f64, unit: &str) -> f64 {
     match unit {
-        "J" => energy.turned_over,
+        "J" => turned_over,
         "N s" => largest_momentum(solution),
         "s" => {
             let highest = largest_signal(solution, "m/s^2") / STANDARD_GRAVITY;

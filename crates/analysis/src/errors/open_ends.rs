@@ -112,7 +112,7 @@ pub(crate) fn cover_switching(
     let shorter = shorter.map(|since| -AMPLE * since.max(4.0 * f64::EPSILON * t_end));
     for change in longer.into_iter().chain(shorter) {
         let other = Run { t_end: t_end + change, ..run.clone() }.with_rtol(finest.rtol);
-        let Ok(other) = task.solve(&other, &mut Silent) else {
+        let Ok(other) = task.solve(&other, false, &mut Silent) else {
             errors.fill(None);
             return;
         };

@@ -14,7 +14,7 @@ use crate::{
         },
         instants::Instants,
         open_ends::{OpenEnd, cover_switching},
-        solved::{Solved, Task},
+        solved::{Balance, Solved, Task},
     },
     measures::selection::Selected,
     solution::threshold_at,
@@ -110,7 +110,7 @@ impl Descent {
         if self.is_full() {
             self.last.remove(0);
         }
-        if let Some(before) = self.last.last_mut() {
+        if let Some(before) = self.last.last_mut().and_then(|own| own.balance.get_mut()) {
             before.energy.gather_parts();
         }
         self.last.push(finer);
@@ -202,7 +202,7 @@ impl Task<'_> {
 
     /// One solution, with the bounds that the method states, if any.
     fn once(&self, run: &Run, observer: &mut dyn Observer) -> Result<Outcome, SolveError> {
-        let mut solved = self.solve(run, observer)?;
+        let mut solved = self.solve(run, true, observer)?;
         let bound = |reading: &Reading| reading.error.map(|error| error + rounding(reading));
         let bounded = self.settings.estimate && self.method.is_exact();
         let errors = solved.readings.iter().map(|reading| bound(reading).filter(|_| bounded));
@@ -227,7 +227,8 @@ impl Task<'_> {
         for rtol in tolerances(self.settings.rtol) {
             let budget = run.budget.part(descent.most);
             let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);
-            let flow = match self.solve(&own, observer) {
+            let is_judged = descent.last.len() + 1 >= SOLUTIONS;
+            let flow = match self.solve(&own, is_judged, observer) {
                 Ok(finer) => descent.take(finer, budget.done()),
                 Err(error) if is_final(&error) => return Err(error),
                 Err(error) => descent.fail(error),
@@ -284,7 +285,8 @@ impl Task<'_> {
             let none = vec![None; self.selected.len()];
             return Bars { errors: none.clone(), of_method: none, open_end: None };
         };
-        let lost = (finest.energy.closure(), finest.energy.turned_over);
+        let energy = &finest.balance(self.assembly).energy;
+        let lost = (energy.closure(), energy.turned_over);
         let least = |(entry, reading): (&Selected, &Reading)| {
             of_energy(reading, entry.measure.unit(), lost)
         };
@@ -305,6 +307,7 @@ impl Task<'_> {
     /// largest signal of their unit, to which their errors are nothing.
     fn settle_zeros(&self, solved: &mut Solved, errors: &[Option<f64>]) {
         let accuracy = &self.settings.accuracy;
+        let turned_over = solved.balance(self.assembly).energy.turned_over;
         let mut solution = Solution::new(self.assembly, &solved.trajectory);
         if let Some(known) = solved.known.take() {
             solution = solution.knowing(known);
@@ -321,7 +324,7 @@ impl Task<'_> {
                 continue;
             }
             solution.make_room();
-            let largest = largest(&solution, &solved.energy, entry.measure.unit());
+            let largest = largest(&solution, turned_over, entry.measure.unit());
             if is_as_good_as_zero(reading, error, (largest, wish)) {
                 reading.size = reading.size.max(largest);
                 reading.noise = reading.noise.max(error.unwrap_or(0.0));
@@ -356,11 +359,12 @@ impl Task<'_> {
         let measures = self.selected.iter().zip(&solved.readings).zip(errors);
         let mut excesses = measures
             .map(|((entry, reading), &error)| excess(reading, error, accuracy.of(&entry.key)));
-        let closure = solved.energy.closure().abs();
+        let Balance { energy, tension } = solved.balance(self.assembly);
+        let closure = energy.closure().abs();
         let strictest = accuracy.strictest();
         excesses.all(|excess| excess <= 1.0)
             && closure <= strictest.min(Ledger::MOST_LOST)
-            && solved.tension <= strictest
+            && *tension <= strictest
     }
 }
 

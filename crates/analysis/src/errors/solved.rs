@@ -1,6 +1,6 @@
 //! One solution of a run, with its measures; and what must be kept of it.
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{cell::OnceCell, collections::BTreeSet, sync::Arc};
 
 use dashpot_dae::{Keep, Method, Observer, Part, Progress, Run, SolveError, Trajectory, switching};
 use dashpot_network::{Assembly, ConnectionOutputs};
@@ -34,18 +34,43 @@ pub(crate) struct Solved {
     pub(crate) rtol: f64,
     /// Part of the largest contact force below which a pull counts as an error of the method.
     pub(crate) threshold: f64,
-    /// The most that a contact pulls with, in parts of what it pushes with.
-    pub(crate) tension: f64,
     /// How deep each contact force first pulls.
     pub(crate) pulls: Vec<Option<f64>>,
     pub(crate) trajectory: Trajectory,
     pub(crate) readings: Vec<Reading>,
-    pub(crate) energy: Ledger,
+    /// What it is judged by, once it is to be judged: the coarser ones of several seldom are.
+    pub(crate) balance: OnceCell<Balance>,
     /// What the measures have found, where there are no further solutions: signals take much memory.
     pub(crate) known: Option<Known>,
 }
 
+/// Whether a solution can be trusted.
+#[derive(Debug)]
+pub(crate) struct Balance {
+    pub(crate) energy: Ledger,
+    /// The most that a contact pulls with, in parts of what it pushes with.
+    pub(crate) tension: f64,
+}
+
+impl Balance {
+    fn of(solution: &Solution<'_>) -> Self {
+        let tension = if solution.doubt() > 0.0 { solution.tension() } else { None };
+        Self {
+            energy: ledger(solution, solution.end()),
+            tension: tension.map_or(0.0, |tension| tension.part),
+        }
+    }
+}
+
 impl Solved {
+    /// What it is judged by; of one that has not been when it was made, as that of a method with steps.
+    pub(crate) fn balance(&self, assembly: &Assembly) -> &Balance {
+        self.balance.get_or_init(|| {
+            let threshold = threshold_at(Some(self.rtol));
+            Balance::of(&Solution::new(assembly, &self.trajectory).doubting(threshold))
+        })
+    }
+
     /// The solution as the measures have been read off it.
     pub(crate) fn as_read<'a>(&'a self, assembly: &'a Assembly) -> Solution<'a> {
         Solution::new(assembly, &self.trajectory).doubting(self.threshold)
@@ -54,7 +79,8 @@ impl Solved {
     /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
     /// can be trusted, or in which sliders do what they cannot.
     pub(crate) fn fault(&self, assembly: &Assembly) -> Option<RunError> {
-        let closure = self.energy.closure();
+        let energy = &self.balance(assembly).energy;
+        let closure = energy.closure();
         let (method, solution) =
             (self.trajectory.method, Solution::new(assembly, &self.trajectory));
         if !closure.is_finite() {
@@ -63,7 +89,7 @@ impl Solved {
         if closure.abs() > Ledger::MOST_LOST {
             return Some(RunError::EnergyLost { method, closure, leak: leak(&solution) });
         }
-        slider_fault(&solution, &self.energy).map(|fault| RunError::Slider { method, fault })
+        slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
     }
 
     /// What it tells of errors.
@@ -79,15 +105,16 @@ impl Task<'_> {
     }
 
     /// A solution with its measures. Where only a part of it is kept, and that turns out not to be all
-    /// that is asked for, it is made again.
+    /// that is asked for, it is made again. It is quicker to say at once that it `is_judged`.
     pub(crate) fn solve(
         &self,
         run: &Run,
+        is_judged: bool,
         observer: &mut dyn Observer,
     ) -> Result<Solved, SolveError> {
         let mut run = run.clone();
         loop {
-            let (solved, missing) = self.attempt(&run, observer)?;
+            let (solved, missing) = self.attempt(&run, is_judged, observer)?;
             if missing.is_empty() {
                 return Ok(solved);
             }
@@ -99,6 +126,7 @@ impl Task<'_> {
     fn attempt(
         &self,
         run: &Run,
+        is_judged: bool,
         observer: &mut dyn Observer,
     ) -> Result<(Solved, BTreeSet<usize>), SolveError> {
         let trajectory = match &self.assembly.switching {
@@ -109,9 +137,8 @@ impl Task<'_> {
         let mut solution = Solution::new(self.assembly, &trajectory).doubting(threshold);
         let readings = self.read_under(&mut solution, observer)?;
         let pulls = if threshold > 0.0 { solution.first_pulls() } else { Vec::new() };
-        let tension = if threshold > 0.0 { solution.tension() } else { None };
-        let tension = tension.map_or(0.0, |tension| tension.part);
-        let energy = ledger(&solution, solution.end());
+        let balance =
+            if is_judged { OnceCell::from(Balance::of(&solution)) } else { OnceCell::new() };
         run.budget.charge(solution.panels() * READING);
         if self.method.is_exact() && run.budget.is_spent() {
             // Its signals are not followed any more.
@@ -121,10 +148,7 @@ impl Task<'_> {
         let missing = solution.missing();
         let known = Some(solution.known()).filter(|_| self.is_single());
         let rtol = run.rtol;
-        Ok((
-            Solved { rtol, threshold, tension, pulls, trajectory, readings, energy, known },
-            missing,
-        ))
+        Ok((Solved { rtol, threshold, pulls, trajectory, readings, balance, known }, missing))
     }
 
     /// The measures of a solution, whose signals may not be made before. The observer is told of each.

@@ -116,7 +116,11 @@ pub(crate) fn improved(
 ) -> Found {
     // Of second order, the last resort would take too long for what is asked here.
     let last_resort = methods::TrBdf2.name();
-    for other in others.into_iter().rev().filter(|other| other.name() != last_resort) {
+    // What an explicit method does not do well itself it has left to backward differentiation.
+    let is_explicit = found.method.name() == methods::Dop853.name();
+    let is_tried = |other: &Arc<dyn Method>| is_explicit && other.name() == methods::Bdf.name();
+    let others = others.into_iter().rev().filter(|other| other.name() != last_resort);
+    for other in others.filter(|other| !is_tried(other)) {
         let before = Task { method: found.method.as_ref(), ..*task };
         let is_stuck = found.method.is_exact() || found.outcome.obstacle.is_some();
         if !is_stuck || before.suffices(&found.outcome) {

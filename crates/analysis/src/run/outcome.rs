@@ -53,7 +53,7 @@ pub(super) fn report(
     if let Some(known) = known {
         solution = solution.knowing(known);
     }
-    let (settings, energy) = (task.settings, &solved.energy);
+    let (settings, energy) = (task.settings, &solved.balance(assembly).energy);
     let cut = (run.t_end < settings.duration).then_some(run.t_end);
     let idle = idle_times(&solution);
     let measures = measures(task, (&solution, energy, &idle), readings, errors, cut);
@@ -98,7 +98,7 @@ pub(super) fn report(
         system: SystemReport { effects: effects.to_vec(), ..SystemReport::of(assembly) },
         measures,
         contacts,
-        energy: outcome.solved.energy,
+        energy: energy.clone(),
         energy_after_impact,
         events,
         partial: None,
@@ -167,7 +167,7 @@ pub(super) fn measures(
     let read = task.selected.iter().zip(readings).zip(errors);
     read.map(|((entry, reading), &error)| {
         let wish = task.settings.accuracy.of(&entry.key);
-        let kind = || largest(solution, energy, entry.measure.unit());
+        let kind = || largest(solution, energy.turned_over, entry.measure.unit());
         let is_open = is_open(&reading, error, wish, kind);
         let report = measure_report(entry, reading, error, wish);
         let report = without_idle_forces(report, solution, idle);

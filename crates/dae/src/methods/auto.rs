@@ -1,26 +1,35 @@
 //! The choice of a method.
 
-use super::{Bdf, Exact};
+use super::{Bdf, Dop853, Exact, stepping::is_stiff};
 use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+
+/// Most unknowns of a system that is solved by an explicit method: of many it costs more to watch the stiffness
+/// than steps are saved.
+const MOST_EXPLICIT: usize = 30;
 
 /// Chooses a method by structure and size, never by the clock, so that a run repeats to the bit.
 ///
 /// The rule: [`Exact`] wherever it applies, because nothing is more accurate or faster there; else
-/// [`Bdf`], which solves every system. The one-step methods are left to those who ask for them: what
-/// they do better, lightly damped oscillation of linear systems, [`Exact`] does best.
+/// [`Dop853`], with few steps, where the system is small and not stiff at the start; else [`Bdf`], which solves
+/// every system. What becomes stiff later [`Dop853`] leaves to [`Bdf`] by itself. The other one-step methods are
+/// left to those who ask for them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Auto;
 
 impl Auto {
     /// The method for `system` over `run`, and why.
     pub fn choose(system: &System, run: &Run) -> (Box<dyn Method>, String) {
-        match Exact.applies(system, run) {
-            Ok(why) => (Box::new(Exact), why),
+        let declined = match Exact.applies(system, run) {
+            Ok(why) => return (Box::new(Exact), why),
             Err(SolveError::NotApplicable { method, reason }) => {
-                (Box::new(Bdf), format!("`{method}` declines: {reason}"))
+                format!("`{method}` declines: {reason}")
             }
-            Err(other) => (Box::new(Bdf), other.to_string()),
-        }
+            Err(other) => return (Box::new(Bdf), other.to_string()),
+        };
+        let length = run.t_end / system.time_scale;
+        let is_explicit =
+            system.len() <= MOST_EXPLICIT && !is_stiff(system, &system.initial, (0.0, length));
+        (if is_explicit { Box::new(Dop853) } else { Box::new(Bdf) }, declined)
     }
 }
 
@@ -30,7 +39,7 @@ impl Method for Auto {
     }
 
     fn summary(&self) -> &'static str {
-        "chooses: `exact` wherever it applies, else `bdf`"
+        "chooses: `exact` wherever it applies, else `dop853` or, for what is large or stiff, `bdf`"
     }
 
     fn applies(&self, system: &System, run: &Run) -> Result<String, SolveError> {

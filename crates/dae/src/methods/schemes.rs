@@ -99,8 +99,8 @@ impl Scheme for Tsit45 {
 
 /// Dormand's and Prince's explicit method of order 8 with error estimates of order 5 and 3, for small systems
 /// that are not stiff. Each stage solves the balances, so that laws that are not linear are no obstacle. Where
-/// stability would ask for many steps, by the fastest rate at the start of a mode interval or by what the steps
-/// show later, [`Bdf`] goes on to the end of the interval.
+/// stability would ask for many steps, by the fastest rate at the start of a mode interval or after some of these
+/// steps, [`Bdf`] goes on to the end of the interval.
 ///
 /// Its dense output in a step is a polynomial of degree 7, so that few steps tell all of an impact.
 ///

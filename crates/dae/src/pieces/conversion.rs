@@ -18,8 +18,13 @@ impl Conversions {
     /// Adds the conversion of values at `nodes`, at most `HIGHEST + 1` times, between `start` and `end`.
     pub(super) fn push(&mut self, nodes: &[f64], (start, end): (f64, f64)) {
         let count = nodes.len();
-        let lagrange = Lagrange::new(nodes);
         let interpolation = Interpolation::of_degree(count - 1);
+        let places = interpolation.nodes().iter().map(|&node| between(start, end, node));
+        if places.eq(nodes.iter().copied()) {
+            interpolation.rows().for_each(|row| self.weights.extend_from_slice(row));
+            return;
+        }
+        let lagrange = Lagrange::new(nodes);
         let first = self.weights.len();
         self.weights.resize(first + count * count, 0.0);
         let own = &mut self.weights[first..];

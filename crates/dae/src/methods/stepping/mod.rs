@@ -32,6 +32,7 @@ mod start;
 mod terms;
 mod walk;
 
+pub(super) use explicit::is_stiff;
 pub use recursion::derivatives;
 
 use std::fmt::Debug;

@@ -258,6 +258,6 @@ mod tests {
         let explicit = "it is explicit, and 1 of the unknowns follow from balances; `bdf` can";
         assert_eq!(reason(&Tsit45, &cubic_spring()), explicit);
         let chosen = Auto.applies(&cubic_spring().system, &Run::to(1.0)).unwrap();
-        assert!(chosen.contains("`bdf`") && chosen.contains("not linear"), "{chosen}");
+        assert!(chosen.contains("`dop853`") && chosen.contains("not linear"), "{chosen}");
     }
 }

@@ -35,8 +35,13 @@ const COARSE: f64 = 1e-4;
 /// away.
 const LOOKS: usize = 8;
 /// More such steps, at a coarse tolerance, are left to an implicit method, where they are asked for by what dies
-/// away.
+/// away …
 const PATIENCE: f64 = 100.0;
+/// … once so many of them have been taken: a mode interval may end long before the run does, and begun anew an
+/// implicit method takes as much.
+const TRIED: usize = 25;
+/// Of so many the ones that are tried would be too small a part: they are not begun.
+const HOPELESS: f64 = 2500.0;
 /// What decays by so many e-folds dies away: most of the steps would follow nothing.
 const DEAD: f64 = 30.0;
 /// So many such steps are left to an implicit method whatever asks for them: more oscillations are seldom excited.
@@ -86,12 +91,15 @@ struct Control {
     /// The fastest rate that is known, and the steps since the last look.
     rate: f64,
     steps: usize,
+    /// Steps that stability has kept short.
+    kept_short: usize,
     is_after_rejection: bool,
 }
 
 impl Control {
     /// Takes down a step that has shown the rate `shown`. Whether too many steps as short as stability asks for
-    /// are to come in the time `left`, as far as the linearised equations tell, at which `look` looks.
+    /// are to come in the time `left`, as far as the linearised equations tell, at which `look` looks; few of them
+    /// are tried all the same.
     fn is_stiff(
         &mut self,
         shown: f64,
@@ -104,7 +112,15 @@ impl Control {
             self.rate = rates.iter().map(|rate| rate.size).fold(0.0, f64::max);
         }
         self.rate = self.rate.max(shown);
-        rates.is_some_and(|rates| asks_for_many_steps(&rates, left))
+        let patience = if self.kept_short < TRIED { HOPELESS } else { PATIENCE };
+        rates.is_some_and(|rates| asks_for_many_steps(&rates, left, patience))
+    }
+
+    /// The factor by which the next step is longer than the last one of length `step`, as far as stability lets it.
+    fn stable(&mut self, step: f64, factor: f64) -> f64 {
+        let most = self.longest / self.rate / step;
+        self.kept_short += usize::from(most < factor);
+        factor.min(most)
     }
 
     /// By what the next step is longer than one of this error, in parts of the tolerance, which was rejected
@@ -177,7 +193,7 @@ impl<'s> Integrator<'s> {
                 if control.is_stiff(self.shown, length - to, look) {
                     return Err(self.stuck(walk, t, site(t)));
                 }
-                factor = factor.min(control.longest / control.rate / step);
+                factor = control.stable(step, factor);
                 self.add_rows(walk, to);
                 walk.statistics.accepted += 1;
                 self.go_on();
@@ -361,17 +377,22 @@ fn longest(rtol: f64) -> f64 {
     LONGEST * (rtol / COARSE).powf(0.125).min(1.0)
 }
 
-/// Whether stability asks for many steps of a span from `start` of this length, both dimensionless, where the
-/// unknowns are `state`; so it counts where the rates are not known.
-pub(super) fn is_stiff(system: &System, state: &[f64], (start, length): (f64, f64)) -> bool {
+/// Whether stability asks for too many steps to begin a span from `start` of this length, both dimensionless, where
+/// the unknowns are `state`; so it counts where the rates are not known.
+pub(in crate::methods) fn is_stiff(
+    system: &System,
+    state: &[f64],
+    (start, length): (f64, f64),
+) -> bool {
     let rates = Reduced::new(system, start).rates(0.0, state);
-    rates.is_none_or(|rates| asks_for_many_steps(&rates, length))
+    rates.is_none_or(|rates| asks_for_many_steps(&rates, length, HOPELESS))
 }
 
-/// Whether parts with these rates ask for many steps of a time, of which most follow nothing.
-fn asks_for_many_steps(rates: &[Rate], length: f64) -> bool {
+/// Whether parts with these rates ask for more steps than there is patience for in a time, of which most follow
+/// nothing.
+fn asks_for_many_steps(rates: &[Rate], length: f64, patience: f64) -> bool {
     rates.iter().any(|rate| {
         let steps = rate.size * length / LONGEST;
-        steps > MOST || steps > PATIENCE && rate.decay * length > DEAD
+        steps > MOST || steps > patience && rate.decay * length > DEAD
     })
 }
