@@ -20,6 +20,7 @@ mod offset;
 mod recorder;
 mod repeats;
 mod sampling;
+mod whitener;
 mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault};
@@ -33,6 +34,7 @@ pub use offset::Offset;
 pub use recorder::Recorder;
 pub use repeats::{Band, Repeated};
 pub use sampling::Sampling;
+pub use whitener::Whitener;
 pub use work::{Work, WorkFault};
 
 #[cfg(test)]
