@@ -1,4 +1,4 @@
-"""Makes the records of docs/fit.md: a gel of three modes in oscillation, and two drops on a pad.
+"""Makes the records of docs/fit.md: a gel of three modes in oscillation, and three drops on a pad, one through a filter.
 
 The pad is a Zener element of 30 kN/m, 60 kN/m and 200 N s/m under 4 kg; its equations are integrated here by the classical
 Runge-Kutta method, until the force falls to zero. Noise has a fixed seed.
@@ -26,7 +26,26 @@ def gel():
     return rows
 
 
-def drop(speed, late, zero):
+def filtered(values, cfc, rate):
+    """Through CFC of SAE J211-1, forward and backward, with the record turned about its ends."""
+    wa = math.tan(math.pi * 2.0775 * cfc / rate)
+    whole = 1 + math.sqrt(2) * wa + wa * wa
+    a, b1, b2 = wa * wa / whole, 2 * (1 - wa * wa) / whole, (math.sqrt(2) * wa - 1 - wa * wa) / whole
+    beyond = min(len(values) - 1, math.ceil(7 * rate / (2.0775 * cfc)))
+    before = [2 * values[0] - own for own in values[beyond:0:-1]]
+    behind = [2 * values[-1] - own for own in values[-2 : -2 - beyond : -1]]
+    all = before + values + behind
+    for _ in range(2):
+        x1 = x2 = y1 = y2 = all[0]
+        for at, x in enumerate(all):
+            y = a * (x + 2 * x1 + x2) + b1 * y1 + b2 * y2
+            x2, x1, y2, y1 = x1, x, y1, y
+            all[at] = y
+        all.reverse()
+    return all[beyond : beyond + len(values)]
+
+
+def drop(speed, late, zero, count=360, cfc=None):
     mass, spring, branch, dashpot = 4.0, 30e3, 60e3, 200.0
 
     def rates(state):
@@ -47,15 +66,19 @@ def drop(speed, late, zero):
         k4 = rates([s + step * k for s, k in zip(state, k3)])
         state = [s + step / 6 * (a + 2 * b + 2 * c + d) for s, a, b, c, d in zip(state, k1, k2, k3, k4)]
     before = round(late * 1e4)
-    rows = ["t [ms],acc [g]"]
-    for at in range(360):
+    readings = []
+    for at in range(count):
         index = at - before
         force = forces[index] if 0 <= index < len(forces) else 0.0
-        reading = force / mass / 9.80665 + zero + 0.3 * stream.gauss(0, 1)
-        rows.append(f"{at / 10:.1f},{reading:.3f}")
-    return rows
+        readings.append(force / mass / 9.80665 + zero + 0.3 * stream.gauss(0, 1))
+    if cfc:
+        readings = filtered(readings, cfc, 1e4)
+    return ["t [ms],acc [g]"] + [f"{at / 10:.1f},{own:.3f}" for at, own in enumerate(readings)]
 
 
-for name, rows in [("dma", gel()), ("low", drop(2.0, 2.0e-3, 0.7)), ("high", drop(3.2, 3.1e-3, -0.4))]:
+records = [("dma", gel()), ("low", drop(2.0, 2.0e-3, 0.7)), ("high", drop(3.2, 3.1e-3, -0.4))]
+stream = random.Random(60)
+records.append(("class60", drop(3.25, 20.4e-3, 0.5, 600, 60)))
+for name, rows in records:
     with open(f"{name}.csv", "w") as file:
         file.write("\n".join(rows) + "\n")

@@ -2,6 +2,7 @@
 
 use std::{fmt::Write as _, fs};
 
+use dashpot::signal::{Cfc, Padding};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -296,4 +297,97 @@ fn a_bound_is_told_first_and_wrong_numbers_are_refused() {
     let told = run(&["fit", &paths[0], "--to", &to]);
     assert_eq!(code(&told), 2);
     assert!(err(&told).contains("--vary"), "{}", err(&told));
+}
+
+/// The record of a pad, behind a filter of this class if any.
+fn filtered(class: f64, speed: f64) -> String {
+    let times: Vec<f64> = (0..1200).map(|at| 5e-5 * f64::from(at)).collect();
+    let noise = |at: usize| 4.0 * ((at * at * 7919 + at * 104_729) % 201) as f64 / 100.0 - 4.0;
+    // The mass leaves the pad where the force falls to zero.
+    let pulse = |t: f64| struck(K, speed, t).max(0.0) * f64::from(t < 0.02);
+    let force = times.iter().enumerate().map(|(at, t)| pulse(t - 0.02) + 8.0 + noise(at));
+    let force: Vec<f64> = force.collect();
+    let force = Cfc::new(class).unwrap().filter(&force, 2e4, Padding::Odd).unwrap();
+    let mut text = "t [ms],force [kN]\n".to_owned();
+    for (t, force) in times.iter().zip(force) {
+        writeln!(text, "{},{:e}", 1e3 * t, 1e-3 * force).unwrap();
+    }
+    text
+}
+
+const OPEN_PAD: &str = "[effects]\nseparation.pad = { at = \"head\" }\n";
+
+#[test]
+fn the_output_of_a_scene_goes_through_the_filter_of_the_record() {
+    let scene = PAD.replace("16 ms", "60 ms") + OPEN_PAD;
+    let files = [("pad.toml", &*scene), ("drop.csv", &filtered(60.0, SPEED))];
+    let (_folder, paths) = folder(&files);
+    let to = format!("{}:force=pad.force", paths[1]);
+    let varied = ["--vary", "K=10..2000 kN/m", "--vary", "C=100..20000 N s/m", "--json"];
+    let fit = |more: &[&str]| {
+        let all = [&["fit", &paths[0], "--to", &to][..], &varied, more].concat();
+        json(&all)
+    };
+    let off = |answer: &Value, name: &str, truth: f64| {
+        number(&answer["parameters"][name]["value"]) / truth - 1.0
+    };
+    let (with, without) = (fit(&["--cfc", "60"]), fit(&["--robust", "off"]));
+    for (name, truth) in [("K", K), ("C", C)] {
+        assert!(off(&with, name, truth).abs() < 0.01, "{with}");
+        let own = &with["parameters"][name];
+        assert!(number(&own["low"]) < number(&own["value"]), "{own}");
+    }
+    assert!(off(&without, "K", K).abs() > 0.05, "{without}");
+    assert!((number(&with["tests"][0]["cfc"]) - 60.0).abs() < 1e-12);
+    // The same for this test alone; and the peak of the fitted scene with a band.
+    let own = format!("{to},cfc=60,noise=2.3 N");
+    let alone = json(&[&["fit", &paths[0], "--to", &own][..], &varied].concat());
+    assert!(off(&alone, "K", K).abs() < 0.01, "{alone}");
+    let peak = &with["measures"]["pad.peak-force"];
+    let half = number(&peak["high"]) - number(&peak["value"]);
+    assert!(half > 0.0 && half < 0.05 * number(&peak["value"]), "{peak}");
+    // A number that is set and fitted is fitted.
+    let set = fit(&["--cfc", "60", "--set", "K=500 kN/m"]);
+    assert!(off(&set, "K", K).abs() < 0.01, "{set}");
+    // By the profile likelihood the ends are nearly the same here.
+    let profiled = fit(&["--cfc", "60", "--profile"]);
+    for name in ["K", "C"] {
+        let (one, other) = (&with["parameters"][name], &profiled["parameters"][name]);
+        assert_eq!((&one["profiled"], &other["profiled"]), (&false.into(), &true.into()));
+        let width = number(&one["high"]) - number(&one["low"]);
+        for end in ["low", "high"] {
+            let off = number(&one[end]) - number(&other[end]);
+            assert!(off.abs() < 0.1 * width, "{one} {other}");
+        }
+    }
+}
+
+#[test]
+fn a_speed_that_was_measured_with_an_error_widens_what_depends_on_it() {
+    let scene = PAD.replace("C = \"800 N s/m\"", "C = \"1500 N s/m\"");
+    let (_folder, paths) = folder(&[("pad.toml", &scene), ("drop.csv", &record(K, 1.01 * SPEED))]);
+    let fit = |set: &str, gain: &[&str]| {
+        let to = format!("{}:force=pad.force{set}", paths[1]);
+        let all = ["fit", &paths[0], "--to", &to, "--vary", "K=10..2000 kN/m", "--json"];
+        json(&[&all[..], gain].concat())
+    };
+    let known = fit(",head.velocity=3 ± 0.06 m/s", &[]);
+    let speed = number(&known["tests"][0]["known"]["head.velocity"]["value"]);
+    assert!((speed / (1.01 * SPEED) - 1.0).abs() < 2e-3, "{speed}");
+    assert!((number(&known["parameters"]["K"]["value"]) / K - 1.0).abs() < 0.01, "{known}");
+    let taken = fit("", &[]);
+    assert!(number(&known["tests"][0]["rms"]) < 0.8 * number(&taken["tests"][0]["rms"]));
+    // A gain does the same to a force that is linear in the speed.
+    let gained = fit("", &["--gain", "2%"]);
+    let gain = number(&gained["tests"][0]["gain"]);
+    assert!((gain / 1.01 - 1.0).abs() < 2e-3, "{gain}");
+    let told = run(&[
+        "fit",
+        &paths[0],
+        "--to",
+        &format!("{}:force=pad.force,head.velocity=3 ± 6", paths[1]),
+        "--vary",
+        "K=1..1000 kN/m",
+    ]);
+    assert_eq!(code(&told), 2, "{}", out(&told));
 }

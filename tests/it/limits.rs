@@ -412,5 +412,9 @@ fn a_sweep_is_enforced_at_every_point() {
     assert_eq!(done("pad.spring=30..42 kN/m,3", &[]), 0);
     let (_folder, bare) = written("");
     let output = run(&["sweep", &bare, "--vary", "pad.spring=30..39 kN/m,3", "--enforce"]);
-    assert!(code(&output) == 2 && said(&output).contains("no limit to enforce"), "{}", err(&output));
+    assert!(
+        code(&output) == 2 && said(&output).contains("no limit to enforce"),
+        "{}",
+        err(&output)
+    );
 }

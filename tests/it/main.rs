@@ -15,6 +15,7 @@ mod cli;
 mod cli_models;
 mod closed_forms;
 mod conformance;
+mod contact_forces;
 mod contact_geometry;
 mod conversions;
 mod cost;

@@ -11,7 +11,7 @@ use dashpot_analysis::{Accuracy, Limit};
 use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{parse_limits, units::parse_quantity};
-use dashpot_signal::Cfc;
+use dashpot_signal::{Cfc, Padding};
 
 use crate::error::{CliError, is_unit, unquoted_help};
 
@@ -173,6 +173,12 @@ pub(crate) fn frequency_class(text: &str) -> Result<Cfc, String> {
     let class =
         number.parse().map_err(|_| format!("`{text}` is no class: write 60, 180, 600 or 1000"))?;
     Cfc::new(class).map_err(|error| error.to_string())
+}
+
+/// What stands beyond the ends of a record for a filter.
+pub(crate) fn paddings() -> PossibleValuesParser {
+    let value = |own: Padding| PossibleValue::new(own.word()).help(own.summary());
+    PossibleValuesParser::new(Padding::ALL.map(value))
 }
 
 /// A time \[s\] within a run.

@@ -8,3 +8,4 @@ pub mod network;
 pub mod nnls;
 pub mod optimum;
 pub mod structure;
+mod student;

@@ -1,10 +1,14 @@
 //! Bounded least squares: the only file that names the optimiser.
+//!
+//! The optimiser is given as many rows as there are unknowns, and one: with `[r J] = Q R` these have the same sums,
+//! gradients and steps as all rows, and it decomposes no more than that. A robust sum is a plain one of residuals that
+//! are drawn in.
 
 use std::convert::Infallible;
 
 use basin::{
-    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, HuberLoss,
-    Jacobian, Residual, RobustLeastSquares, TerminationCode, TrustRegionReflective,
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
+    Residual, TerminationCode, TrustRegionReflective,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -42,20 +46,14 @@ pub fn least_squares(
     start: &[f64],
     robust_scale: Option<f64>,
 ) -> Option<Optimum> {
-    let bounded = Bounded { problem, lower: lower.to_vec(), upper: upper.to_vec() };
+    let bounded = Bounded { problem, lower: lower.to_vec(), upper: upper.to_vec(), robust_scale };
     let solver = TrustRegionReflective::new()
         .with_absolute_scaled_gradient_tolerance(GRADIENT)
         .with_relative_cost_change_tolerance(COST_CHANGE);
-    let (unknowns, cost, code) = if let Some(scale) = robust_scale {
-        let robust = RobustLeastSquares::new(bounded, HuberLoss).with_scale(scale);
-        let own = Executor::from_start(robust, solver, start.to_vec()).max_iter(MOST_STEPS).run();
-        let own = own.ok()?;
-        (own.param().clone(), own.cost(), own.report.termination.code())
-    } else {
-        let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
-        let own = own.ok()?;
-        (own.param().clone(), own.cost(), own.report.termination.code())
-    };
+    let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
+    let own = own.ok()?;
+    let (unknowns, cost) = (own.param().clone(), own.cost());
+    let code = own.report.termination.code();
     let is_converged = match code {
         TerminationCode::MaxIter => false,
         TerminationCode::SolverFailed | TerminationCode::NumericalNoProgress => {
@@ -64,6 +62,13 @@ pub fn least_squares(
         _ => true,
     };
     cost.is_finite().then_some(Optimum { unknowns, cost, is_converged })
+}
+
+/// Half the sum of squares of residuals, or of what counts by its magnitude beyond a robust scale (Huber).
+pub fn sum(left: &[f64], robust_scale: Option<f64>) -> f64 {
+    let far = robust_scale.unwrap_or(f64::INFINITY);
+    let counted = |own: f64| if own > far { far * (own - 0.5 * far) } else { 0.5 * own * own };
+    left.iter().map(|own| counted(own.abs())).sum()
 }
 
 /// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one.
@@ -99,6 +104,26 @@ struct Bounded<'p> {
     problem: &'p dyn Residuals,
     lower: Vec<f64>,
     upper: Vec<f64>,
+    robust_scale: Option<f64>,
+}
+
+impl Bounded<'_> {
+    /// The residuals, drawn in where a robust sum counts them by their magnitude, and by what part they then change.
+    ///
+    /// Of `ρ` it is `√(2 ρ(r))`, so that half of its square is `ρ`.
+    fn drawn_in(&self, unknowns: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let left = self.problem.residual(unknowns);
+        let far = self.robust_scale.unwrap_or(f64::INFINITY);
+        let one = |own: &f64| {
+            if own.abs() > far {
+                let drawn = (far * (2.0 * own.abs() - far)).sqrt();
+                (drawn.copysign(*own), far / drawn)
+            } else {
+                (*own, 1.0)
+            }
+        };
+        left.iter().map(one).unzip()
+    }
 }
 
 impl Constraints for Bounded<'_> {
@@ -115,7 +140,10 @@ impl Residual for Bounded<'_> {
     type Error = Infallible;
 
     fn residual(&self, unknowns: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
-        Ok(self.problem.residual(unknowns))
+        let mut all = vec![0.0; unknowns.len() + 1];
+        let left = self.drawn_in(unknowns).0;
+        all[0] = left.iter().map(|own| own * own).sum::<f64>().sqrt();
+        Ok(all)
     }
 }
 
@@ -124,8 +152,25 @@ impl Jacobian for Bounded<'_> {
 
     fn jacobian(&self, unknowns: &Vec<f64>) -> Result<DenseMatrix, Infallible> {
         let own = self.problem.jacobian(unknowns);
-        let by_rows = own.transpose();
-        Ok(DenseMatrix::from_row_slice(own.nrows(), own.ncols(), by_rows.as_slice()))
+        let (left, slopes) = self.drawn_in(unknowns);
+        let count = unknowns.len();
+        let both =
+            DMatrix::from_fn(left.len().max(count + 1), count + 1, |row, column| {
+                match column.checked_sub(1) {
+                    _ if row >= left.len() => 0.0,
+                    None => left[row],
+                    Some(column) => own[(row, column)] * slopes[row],
+                }
+            });
+        let factor = both.qr().unpack_r();
+        // The first column is that of the residuals, which are given as a positive number.
+        let sign = if factor[(0, 0)] < 0.0 { -1.0 } else { 1.0 };
+        let mut rows = Vec::with_capacity(count * (count + 1));
+        for row in 0..=count {
+            let sign = if row == 0 { sign } else { 1.0 };
+            rows.extend((1..=count).map(|column| sign * factor[(row, column)]));
+        }
+        Ok(DenseMatrix::from_row_slice(count + 1, count, &rows))
     }
 }
 

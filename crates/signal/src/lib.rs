@@ -21,6 +21,7 @@ mod rating;
 mod recorder;
 mod repeats;
 mod sampling;
+mod whitener;
 mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
@@ -35,6 +36,7 @@ pub use rating::{Grade, Rating, Unrated};
 pub use recorder::Recorder;
 pub use repeats::{Band, Repeated};
 pub use sampling::Sampling;
+pub use whitener::Whitener;
 pub use work::{Work, WorkFault};
 
 #[cfg(test)]

@@ -113,4 +113,4 @@ impl<'g> Plan<'g> {
 }
 
 /// The largest number of unknowns that are instantiated.
-const MOST_STATES: usize = 12;
+pub(super) const MOST_STATES: usize = 12;

@@ -13,9 +13,11 @@ mod axes;
 mod bracket;
 mod columns;
 mod estimates;
+mod forces;
 mod full;
 mod instantiated;
 mod parallel;
+mod products;
 mod propagate;
 mod report;
 mod scene_point;
@@ -42,6 +44,7 @@ pub use self::{
     axes::{Axis, Grid, Sweep, SweepRow, Swept, axis},
     columns::{columns, measure_named},
     estimates::{Estimates, SweepOptions},
+    forces::{ContactForce, ContactForces, PoseAt},
     parallel::Watch,
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
 };

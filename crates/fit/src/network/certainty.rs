@@ -3,11 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::residuals::Task;
-use crate::optimum::Residuals;
+use super::{profile::Valley, residuals::Task};
+use crate::{
+    optimum::{Optimum, Residuals},
+    student::within_95,
+};
 
-/// Standard deviations of a two-sided 95 % interval.
-const SIGMAS: f64 = 1.959_963_984_540_054;
 /// Directions in which the sum of squares rises by less than this part of the largest rise are not determined.
 const FLAT: f64 = 1e-10;
 /// A number that has more than this part of such a direction is not determined.
@@ -16,22 +17,37 @@ const TAKES_PART: f64 = 1e-3;
 const ON_BOUND: f64 = 1e-6;
 /// An interval whose ends differ by a larger factor determines nothing.
 const IDENTIFIED: f64 = 2.0;
+/// The sum of squares may rise to the end of an interval by so much more or less, in standard deviations, than its
+/// covariance tells.
+const CURVED: f64 = 0.15;
+
+/// What an interval is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// The covariance at the minimum.
+    Covariance,
+    /// The profile likelihood: how much worse all tests are met with the number held elsewhere.
+    Profile,
+}
 
 /// A number and its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// The value.
     pub value: f64,
-    /// The ends; `None` where the tests do not determine it.
-    pub ends: Option<[f64; 2]>,
-    /// Whether it is on one of its bounds, so that the interval is none.
+    /// The ends; `None` where the tests do not determine it within its bounds.
+    pub ends: [Option<f64>; 2],
+    /// What they are from.
+    pub source: Source,
+    /// Whether it is on one of its bounds.
     pub is_on_bound: bool,
 }
 
 impl Interval {
     /// Whether the tests determine it: within a factor of two.
     pub fn is_identified(&self) -> bool {
-        !self.is_on_bound && self.ends.is_some_and(|[low, high]| high <= IDENTIFIED * low)
+        let [Some(low), Some(high)] = self.ends else { return false };
+        !self.is_on_bound && high <= IDENTIFIED * low
     }
 }
 
@@ -40,45 +56,80 @@ pub(super) struct Certainty {
     pub(super) numbers: Vec<Interval>,
     /// How many rows stand for one that is independent.
     pub(super) correlation: f64,
+    /// Standard deviations to the ends of an interval.
+    pub(super) quantile: f64,
     pub(super) determined: DMatrix<f64>,
     pub(super) undetermined: DMatrix<f64>,
 }
 
-/// The intervals of all numbers.
-pub(super) fn intervals(task: &Task<'_>, unknowns: &[f64]) -> Certainty {
-    let left = task.left(unknowns);
-    let jacobian = task.jacobian(unknowns);
-    let rows = left.len() as f64;
+/// The intervals of all numbers, at a minimum of the robust sum beyond a scale; all of the profile likelihood if asked.
+pub(super) fn certainty(
+    task: &Task<'_>,
+    best: &Optimum,
+    scale: Option<f64>,
+    is_profiled: bool,
+) -> Certainty {
+    let left = task.left(&best.unknowns);
     let correlation = task.parts().map(|own| correlation(&left[own])).fold(1.0, f64::max);
-    let free = (rows - jacobian.ncols() as f64).max(1.0);
-    let square: f64 = left.iter().map(|own| own * own).sum();
-    let variance = correlation * square / free;
+    let (spread, quantile) = spread(task, &left, scale, correlation);
+    let measured = task.parts().last().map_or(0, |own| own.end);
+    let mut jacobian = task.jacobian(&best.unknowns);
+    let deviation = (spread * correlation).sqrt();
+    jacobian.rows_mut(0, measured).scale_mut(deviation.recip());
     let count = task.numbers().len();
-    let (determined, undetermined) = directions(jacobian, count, variance);
-    let numbers = task.values(unknowns).into_iter().zip(task.numbers()).enumerate();
+    let (covariance, undetermined) = directions(jacobian, count);
+    let valley = Valley::new(task, best, scale, (deviation * deviation, quantile));
+    let numbers = task.values(&best.unknowns).into_iter().zip(task.numbers()).enumerate();
     let numbers = numbers.map(|(at, (value, number))| {
         let is_known = undetermined.row(at).iter().all(|own| own.abs() < TAKES_PART);
-        let factor = factor(determined[(at, at)]);
-        let ends = (is_known && factor.is_finite()).then(|| [value / factor, value * factor]);
+        let own = covariance[(at, at)].max(0.0).sqrt();
+        let is_known = is_known && own.is_finite();
         let near = |bound: f64| (value / bound).ln().abs() < ON_BOUND;
-        Interval { value, ends, is_on_bound: near(number.low) || near(number.high) }
+        let is_on_bound = near(number.low) || near(number.high);
+        let column: Vec<f64> = covariance.column(at).iter().copied().collect();
+        let is_curved = || valley.departs(at, &column).is_none_or(|by| by > CURVED);
+        let factor = (quantile * own).exp();
+        let (ends, source) = if is_known && !is_on_bound && !is_profiled && !is_curved() {
+            ([Some(value / factor), Some(value * factor)], Source::Covariance)
+        } else if is_known || is_on_bound {
+            (valley.ends(at, own), Source::Profile)
+        } else {
+            ([None; 2], Source::Covariance)
+        };
+        Interval { value, ends, source, is_on_bound }
     });
-    Certainty { numbers: numbers.collect(), correlation, determined, undetermined }
+    Certainty {
+        numbers: numbers.collect(),
+        correlation,
+        quantile,
+        determined: covariance.view((0, 0), (count, count)).into_owned(),
+        undetermined,
+    }
 }
 
-/// The factor from a value to the ends of its interval, by the variance of its logarithm.
-pub(super) fn factor(variance: f64) -> f64 {
-    (SIGMAS * variance.max(0.0).sqrt()).exp()
+/// The variance of a row, in units of its test, and how many standard deviations 95 % are. Where noise is known it is
+/// no smaller than that. Rows beyond the scale count as the robust sum does.
+///
+/// Source: P. J. Huber, Robust Statistics (1981), 7.6.
+fn spread(task: &Task<'_>, left: &[f64], scale: Option<f64>, correlation: f64) -> (f64, f64) {
+    let far = scale.unwrap_or(f64::INFINITY);
+    let rows = left.len() as f64;
+    let square: f64 = left.iter().map(|own| own.clamp(-far, far).powi(2)).sum();
+    let inside = left.iter().filter(|own| own.abs() <= far).count() as f64 / rows;
+    let unknowns = task.unknowns() as f64;
+    let spread = square / (rows - unknowns).max(1.0) / (inside * inside);
+    if task.tests().iter().all(|own| own.noise.is_some()) && spread * correlation <= 1.0 {
+        return (correlation.recip(), within_95(f64::INFINITY));
+    }
+    (spread.max(f64::MIN_POSITIVE), within_95((rows / correlation - unknowns).max(1.0)))
 }
 
-/// The covariance of so many numbers along the directions that rows determine, and the other directions.
-fn directions(
-    mut jacobian: DMatrix<f64>,
-    count: usize,
-    variance: f64,
-) -> (DMatrix<f64>, DMatrix<f64>) {
+/// The covariance along the directions that rows of unit variance determine, and the other directions of so many
+/// numbers.
+fn directions(mut jacobian: DMatrix<f64>, count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+    let all = jacobian.ncols();
     if !jacobian.iter().all(|own| own.is_finite()) {
-        return (DMatrix::zeros(count, count), DMatrix::identity(count, count));
+        return (DMatrix::zeros(all, all), DMatrix::identity(count, count));
     }
     let unit = |own: f64| if own > 0.0 { own } else { 1.0 };
     let lengths: Vec<f64> = jacobian.column_iter().map(|own| unit(own.norm())).collect();
@@ -87,19 +138,21 @@ fn directions(
     }
     let own = jacobian.tr_mul(&jacobian).symmetric_eigen();
     let largest = own.eigenvalues.max();
-    let mut determined = DMatrix::zeros(count, count);
+    let mut covariance = DMatrix::zeros(all, all);
     let mut open = Vec::new();
     for (value, vector) in own.eigenvalues.iter().zip(own.eigenvectors.column_iter()) {
-        let direction = DVector::from_fn(count, |at, _| vector[at] / lengths[at]);
+        let direction = DVector::from_fn(all, |at, _| vector[at] / lengths[at]);
         if *value <= FLAT * largest {
-            open.push(&direction / unit(direction.norm()));
+            let of_numbers = direction.rows(0, count).into_owned();
+            let norm = unit(of_numbers.norm());
+            open.push(of_numbers / norm);
         } else {
-            determined += &direction * direction.transpose() * (variance / value);
+            covariance += &direction * direction.transpose() * value.recip();
         }
     }
     let undetermined =
         if open.is_empty() { DMatrix::zeros(count, 0) } else { DMatrix::from_columns(&open) };
-    (determined, undetermined)
+    (covariance, undetermined)
 }
 
 /// How many rows that follow each other stand for one: one and twice the sum of autocorrelations up to the first that

@@ -4,87 +4,24 @@
 //! own zero, which are fitted beside them. Unknowns are logarithms of the numbers, searched within their bounds from
 //! the scene's own values and from others spread over the bounds.
 
+mod bands;
 mod certainty;
+mod problem;
+mod profile;
+mod record;
 mod residuals;
 mod starts;
+mod told;
 
 use nalgebra::{DMatrix, DVector};
-use thiserror::Error;
 
-pub use self::certainty::Interval;
-use self::{certainty::intervals, residuals::Task, starts::starts};
+pub use self::{
+    bands::{Band, Read},
+    certainty::{Interval, Source},
+    problem::{Curve, Known, Model, NetworkFault, NetworkSettings, Number, Test},
+};
+use self::{certainty::certainty, residuals::Task, starts::starts};
 use crate::optimum::{Optimum, least_squares};
-
-/// A curve over time.
-pub trait Curve {
-    /// The value at a time \[s\]: before the start what is there at rest, behind the end what is there last.
-    fn value(&self, time: f64) -> f64;
-
-    /// Time of the largest magnitude \[s\], and that with its sign.
-    fn peak(&self) -> (f64, f64);
-}
-
-/// The curve of a test, by its number, where the numbers have these values in SI units.
-pub type Model<'m> = dyn Fn(usize, &[f64]) -> Result<Box<dyn Curve>, String> + Sync + 'm;
-
-/// A number that is fitted.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Number {
-    /// The lower bound, positive.
-    pub low: f64,
-    /// The upper bound.
-    pub high: f64,
-    /// Where the search begins first.
-    pub start: f64,
-}
-
-/// A test: rows of time \[s\] and value in SI units, and what may be off with them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Test {
-    /// The rows.
-    pub rows: Vec<(f64, f64)>,
-    /// Whether its clock may be off.
-    pub is_shifted: bool,
-    /// Whether its zero may be off.
-    pub is_offset: bool,
-}
-
-/// What is asked of a fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NetworkSettings {
-    /// From how many starts the search begins; 1 is the scene's own values alone.
-    pub starts: usize,
-    /// The seed of the others.
-    pub seed: u64,
-    /// Whether rows that are far off count by their magnitude, in place of its square.
-    pub is_robust: bool,
-}
-
-/// Why nothing was fitted.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum NetworkFault {
-    /// Too few rows for so many unknowns.
-    #[error("{rows} rows do not determine {unknowns} unknowns")]
-    TooFew {
-        /// Rows of all tests.
-        rows: usize,
-        /// Numbers, clocks and zeros.
-        unknowns: usize,
-    },
-    /// A test that is nothing but zeros.
-    #[error("test {} is zero throughout", .test + 1)]
-    Nothing {
-        /// Its number from 0.
-        test: usize,
-    },
-    /// The model cannot be solved at any start.
-    #[error("the model cannot be solved: {reason}")]
-    Unsolved {
-        /// Why not.
-        reason: String,
-    },
-}
 
 /// What was found of a test.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,14 +30,25 @@ pub struct TestFit {
     pub shift: f64,
     /// What the rows read at zero.
     pub offset: f64,
+    /// What the rows read in place of 1.
+    pub gain: f64,
+    /// Its own numbers, in SI units.
+    pub known: Vec<f64>,
     /// Root of the mean square of what is left.
     pub rms: f64,
+    /// Standard deviation of what is left of a sample before the filter; without a filter of the rows.
+    pub noise: f64,
+    /// The same before the impact alone; `None` where fewer than eight rows tell it.
+    pub noise_at_rest: Option<f64>,
     /// The largest magnitude that was measured, with its sign, less the offset.
     pub measured_peak: f64,
-    /// The largest magnitude of the model, with its sign.
+    /// The largest magnitude of the model behind the filter, with its sign.
     pub model_peak: f64,
     /// What is left, row by row: the model less the rows.
     pub residual: Vec<f64>,
+    /// Half of the band that the uncertainty of the numbers gives to the model, row by row; `None` where it depends on
+    /// what the tests do not determine.
+    pub band: Vec<Option<f64>>,
     /// The peak of the model in parts of the measured one, less 1, where the numbers are fitted to the other tests
     /// alone; `None` where there is no other.
     pub held_out: Option<f64>,
@@ -132,6 +80,8 @@ pub struct NetworkFit {
     pub outliers: usize,
     /// How many rows stand for one that is independent.
     pub correlation: f64,
+    /// Standard deviations to the ends of an interval.
+    pub quantile: f64,
     /// Covariance of the logarithms of the numbers, along what is determined.
     pub determined: DMatrix<f64>,
     /// Directions of these logarithms that the tests do not determine, in columns.
@@ -146,7 +96,7 @@ impl NetworkFit {
         let variance = gradient.dot(&(&self.determined * &gradient));
         let null = &self.undetermined;
         let is_known = null.ncols() == 0 || null.tr_mul(&gradient).amax() < KNOWN * gradient.amax();
-        is_known.then(|| certainty::factor(variance))
+        is_known.then(|| (self.quantile * variance.max(0.0).sqrt()).exp())
     }
 }
 
@@ -159,6 +109,8 @@ const SAME: f64 = 1e-4;
 const APART: f64 = 0.02;
 /// Residuals beyond so many standard deviations are far off.
 const FAR: f64 = 3.0;
+/// What is left of a test counts in no smaller parts of its peak than this.
+const LEAST: f64 = 1e-12;
 /// The standard deviation in medians of the magnitude of normal deviates.
 const OF_MEDIAN: f64 = 1.4826;
 
@@ -181,9 +133,10 @@ const OF_MEDIAN: f64 = 1.4826;
 ///     }
 /// }
 /// let rows = (0..400).map(|at| 0.01 * f64::from(at)).map(|t| (t + 0.5, Decay(2.0).value(t)));
-/// let test = Test { rows: rows.collect(), is_shifted: true, is_offset: true };
+/// let test =
+///     Test { rows: rows.collect(), is_shifted: true, is_offset: true, ..Test::default() };
 /// let number = Number { low: 0.1, high: 10.0, start: 5.0 };
-/// let settings = NetworkSettings { starts: 3, seed: 1, is_robust: true };
+/// let settings = NetworkSettings { starts: 3, seed: 1, is_robust: true, is_profiled: false };
 /// let own = fit(&[number], &[test], settings, &|_, values| Ok(Box::new(Decay(values[0]))))?;
 /// assert!((own.numbers[0].value - 2.0).abs() < 1e-4 && (own.tests[0].shift - 0.5).abs() < 1e-4);
 /// # Ok::<(), dashpot_fit::network::NetworkFault>(())
@@ -214,8 +167,8 @@ fn checked(numbers: &[Number], tests: &[Test]) -> Result<(), NetworkFault> {
         return Err(NetworkFault::Nothing { test });
     }
     let rows: usize = tests.iter().map(|own| own.rows.len()).sum();
-    let own = tests.iter().map(|own| usize::from(own.is_shifted) + usize::from(own.is_offset));
-    let unknowns = numbers.len() + own.sum::<usize>();
+    let own: usize = tests.iter().map(|own| own.unknowns() - own.priors()).sum();
+    let unknowns = numbers.len() + own;
     if rows <= unknowns { Err(NetworkFault::TooFew { rows, unknowns }) } else { Ok(()) }
 }
 
@@ -225,25 +178,34 @@ fn search(
     settings: NetworkSettings,
     model: &Model<'_>,
 ) -> Result<NetworkFit, NetworkFault> {
-    let task = Task::new(numbers, tests, model);
+    let mut task = Task::new(numbers, tests, model)
+        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?;
+    let (rows, unknowns) = (task.rows(), task.unknowns());
+    if rows <= unknowns {
+        return Err(NetworkFault::TooFew { rows, unknowns });
+    }
     let mut found: Vec<Optimum> = Vec::new();
     let mut reason = String::new();
+    let bounds = task.bounds();
+    let bounds = [&bounds[0][..], &bounds[1][..]];
     for values in starts(numbers, settings) {
         match task.begin(&values) {
-            Ok((start, bounds)) => {
-                let bounds = [&bounds[0][..], &bounds[1][..]];
-                found.extend(least_squares(&task, bounds, &start, None));
-            }
+            Ok(start) => found.extend(least_squares(&task, bounds, &start, None)),
             Err(own) => reason = own,
         }
     }
     found.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-    let Some(mut best) = found.first().cloned() else {
+    let Some(first) = found.first().cloned() else {
         return Err(NetworkFault::Unsolved { reason });
     };
-    let outliers = if settings.is_robust { robust(&task, &mut best) } else { 0 };
-    let certainty = intervals(&task, &best.unknowns);
-    let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / task.rows() as f64);
+    let units = units(&task, &first.unknowns, settings.is_robust);
+    task.count_in(&units);
+    let scale = settings.is_robust.then_some(FAR);
+    let best = least_squares(&task, bounds, &first.unknowns, scale).unwrap_or(first);
+    let certainty = certainty(&task, &best, scale, settings.is_profiled);
+    let left = task.left(&best.unknowns);
+    let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
+    let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / rows as f64);
     let is_low = |own: &Optimum| own.cost - found[0].cost <= noise + f64::MIN_POSITIVE;
     let distance = |own: &Optimum| {
         let each = own.unknowns.iter().zip(&found[0].unknowns).take(numbers.len());
@@ -259,7 +221,7 @@ fn search(
         values: task.values(&own.unknowns),
         cost: own.cost / found[0].cost.max(f64::MIN_POSITIVE),
     });
-    Ok(NetworkFit {
+    let mut fit = NetworkFit {
         tests: task.told(&best.unknowns),
         is_converged: best.is_converged,
         reached: [reached, found.len()],
@@ -267,22 +229,38 @@ fn search(
         outliers,
         numbers: certainty.numbers,
         correlation: certainty.correlation,
+        quantile: certainty.quantile,
         determined: certainty.determined,
         undetermined: certainty.undetermined,
-    })
+    };
+    for test in 0..tests.len() {
+        let bands = fit.bands(&|values| task.samples(test, values, &best.unknowns));
+        let half = |own: Option<Band>| own.and_then(|own| own.half);
+        fit.tests[test].band = bands.unwrap_or_default().into_iter().map(half).collect();
+    }
+    Ok(fit)
 }
 
-/// Goes on from a minimum with rows that are far off counted by their magnitude; returns how many they are.
-fn robust(task: &Task<'_>, best: &mut Optimum) -> usize {
-    let Some(scale) = task.scale(&best.unknowns).filter(|own| *own > 0.0) else { return 0 };
-    let scale = FAR * scale;
-    let Ok((_, bounds)) = task.begin(&task.values(&best.unknowns)) else { return 0 };
-    let bounds = [&bounds[0][..], &bounds[1][..]];
-    let Some(own) = least_squares(task, bounds, &best.unknowns, Some(scale)) else { return 0 };
-    let left = task.left(&own.unknowns);
-    let outliers = left.iter().filter(|own| own.abs() > scale).count();
-    *best = own;
-    outliers
+/// What the rows of each test are counted in: their noise where it is known, else the standard deviation that what is
+/// left of them at a minimum stands for.
+fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
+    let left = task.left(unknowns);
+    let taken = task.unknowns() as f64 / left.len() as f64;
+    let parts = task.parts().zip(task.tests()).enumerate();
+    let unit = |(test, (rows, own)): (usize, (std::ops::Range<usize>, &Test))| {
+        if let Some(noise) = own.noise {
+            return noise;
+        }
+        let left = &left[rows];
+        let square = left.iter().map(|own| own * own).sum::<f64>() / left.len() as f64;
+        let plain = (square / (1.0 - taken).max(0.1)).sqrt();
+        let mut sorted: Vec<f64> = left.iter().map(|own| own.abs()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let median = OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let own = if is_robust && median > 0.0 { median } else { plain };
+        task.unit(test) * own.max(LEAST)
+    };
+    parts.map(unit).collect()
 }
 
 /// How far the peak of the model is from that of a test to which nothing but its clock and its zero was fitted.
@@ -298,12 +276,14 @@ fn held_out(
     let begun = numbers.iter().zip(&fit.numbers);
     let begun: Vec<Number> =
         begun.map(|(own, found)| Number { start: found.value, ..own.clone() }).collect();
-    let settings = NetworkSettings { starts: 1, seed: 0, is_robust: false };
     let of_rest = |at: usize, values: &[f64]| model(others[at], values);
-    let found = search(&begun, &rest, settings, &of_rest).ok()?;
-    let values: Vec<f64> = found.numbers.iter().map(|own| own.value).collect();
-    let peak = model(test, &values).ok()?.peak().1;
-    Some(peak / fit.tests[test].measured_peak - 1.0)
+    let rest_task = Task::new(&begun, &rest, &of_rest).ok()?;
+    let start = rest_task.begin(&begun.iter().map(|own| own.start).collect::<Vec<_>>()).ok()?;
+    let bounds = rest_task.bounds();
+    let found = least_squares(&rest_task, [&bounds[0], &bounds[1]], &start, None)?;
+    let values = rest_task.values(&found.unknowns);
+    let task = Task::new(numbers, tests, model).ok()?;
+    Some(task.peak_at(test, &values, fit.tests[test].shift)? / fit.tests[test].measured_peak - 1.0)
 }
 
 #[cfg(test)]

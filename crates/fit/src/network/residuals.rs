@@ -1,91 +1,136 @@
 //! Tests and a model as a problem of least squares.
 //!
-//! Unknowns are the logarithms of the numbers, then for each test its shift in parts of its length and its offset in
-//! parts of its peak. Residuals are parts of the peak that was measured, so that tests of all sizes count alike.
+//! Unknowns are the logarithms of the numbers, then for each test its shift in parts of its length, its offset in
+//! parts of its peak, the logarithm of its gain, and how far its own numbers are from what was measured of them, the
+//! last two in standard deviations. What is left of a test is made independent where its filter has correlated it, and
+//! counted in a unit of the test; behind it stands how far what is known is off.
 
+use std::{iter::repeat_n, ops::Range};
+
+use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
 
-use super::{Curve, Model, Number, Test, TestFit};
+use super::{Curve, Model, Number, Test, record::Record};
 use crate::optimum::Residuals;
 
-/// Step of differences in logarithms of numbers.
+/// Step of differences in logarithms of numbers, and in standard deviations.
 const STEP: f64 = 1e-3;
 /// Step of differences in time, in parts of the length of a test.
 const TIME_STEP: f64 = 1e-5;
+/// A clock is not later by more lengths of its test, and a zero not off by more peaks.
+const LATEST: f64 = 2.0;
+const HIGHEST: f64 = 1.0;
+/// What is known of a gain or a number is not left by more standard deviations.
+const FARTHEST: f64 = 8.0;
 
 /// What is fitted to what.
 pub(super) struct Task<'t> {
     numbers: &'t [Number],
     tests: &'t [Test],
     model: &'t Model<'t>,
-    scales: Vec<Scale>,
+    records: Vec<Record>,
 }
 
-/// Length and mean step of a test \[s\], and its largest magnitude, with the time of that.
+/// What a test has to itself: shift \[s\], offset, gain.
 #[derive(Debug, Clone, Copy)]
-struct Scale {
-    length: f64,
-    step: f64,
-    peak: f64,
-    peak_time: f64,
+pub(super) struct Own {
+    pub(super) shift: f64,
+    pub(super) offset: f64,
+    pub(super) gain: f64,
 }
 
-/// A start, and the lower and upper bounds around it.
-type Begun = (Vec<f64>, [Vec<f64>; 2]);
+/// Where these stand among the unknowns, and where the numbers of the test begin.
+struct Places {
+    shift: Option<usize>,
+    offset: Option<usize>,
+    gain: Option<usize>,
+    known: usize,
+}
 
 impl<'t> Task<'t> {
-    pub(super) fn new(numbers: &'t [Number], tests: &'t [Test], model: &'t Model<'t>) -> Self {
-        let scale = |own: &Test| {
-            let (mut first, mut last, mut peak) = (f64::INFINITY, f64::NEG_INFINITY, (0.0, 0.0));
-            for &(time, value) in &own.rows {
-                (first, last) = (first.min(time), last.max(time));
-                if value.abs() > f64::abs(peak.1) {
-                    peak = (time, value);
-                }
-            }
-            let length = (last - first).max(f64::MIN_POSITIVE);
-            let step = length / own.rows.len() as f64;
-            Scale { length, step, peak: f64::abs(peak.1), peak_time: peak.0 }
-        };
-        Self { numbers, tests, model, scales: tests.iter().map(scale).collect() }
+    /// # Errors
+    ///
+    /// A test that cannot have gone through its filter.
+    pub(super) fn new(
+        numbers: &'t [Number],
+        tests: &'t [Test],
+        model: &'t Model<'t>,
+    ) -> Result<Self, (usize, SettingsFault)> {
+        let records = tests.iter().enumerate();
+        let records = records.map(|(at, own)| Record::of(own).map_err(|fault| (at, fault)));
+        Ok(Self { numbers, tests, model, records: records.collect::<Result<_, _>>()? })
     }
 
+    /// Rows of all tests, and of what is known of their own unknowns.
     pub(super) fn rows(&self) -> usize {
-        self.tests.iter().map(|own| own.rows.len()).sum()
+        self.measured() + self.tests.iter().map(Test::priors).sum::<usize>()
+    }
+
+    /// Rows of all tests.
+    fn measured(&self) -> usize {
+        self.records.iter().map(Record::rows).sum()
     }
 
     pub(super) fn numbers(&self) -> &[Number] {
         self.numbers
     }
 
-    /// The numbers, in SI units.
+    pub(super) fn tests(&self) -> &[Test] {
+        self.tests
+    }
+
+    /// How many unknowns there are.
+    pub(super) fn unknowns(&self) -> usize {
+        self.numbers.len() + self.tests.iter().map(Test::unknowns).sum::<usize>()
+    }
+
+    /// Counts the rows of each test in a unit of its own.
+    pub(super) fn count_in(&mut self, units: &[f64]) {
+        self.records.iter_mut().zip(units).for_each(|(own, unit)| own.unit = *unit);
+    }
+
+    /// What the rows of a test are counted in, in SI units.
+    pub(super) fn unit(&self, test: usize) -> f64 {
+        self.records[test].unit
+    }
+
+    /// The shared numbers, in SI units.
     pub(super) fn values(&self, unknowns: &[f64]) -> Vec<f64> {
         let each = unknowns.iter().zip(self.numbers);
         each.map(|(own, number)| own.exp().clamp(number.low, number.high)).collect()
     }
 
-    /// Position of the shift of a test among the unknowns, and of its offset.
-    fn places(&self, test: usize) -> [Option<usize>; 2] {
-        let mut next = self.numbers.len();
+    /// The numbers of a test: those that it shares, and its own.
+    pub(super) fn values_of(&self, test: usize, unknowns: &[f64]) -> Vec<f64> {
+        let from = self.places(test).known;
+        let known = self.tests[test].known.iter().zip(&unknowns[from..]);
+        let known = known.map(|(known, own)| known.mean + own * known.deviation);
+        self.values(unknowns).into_iter().chain(known).collect()
+    }
+
+    fn places(&self, test: usize) -> Places {
+        let before = self.tests[..test].iter().map(Test::unknowns).sum::<usize>();
+        let mut next = self.numbers.len() + before;
         let mut place = |is_there: bool| {
             next += usize::from(is_there);
             is_there.then(|| next - 1)
         };
-        let mut own = [None, None];
-        for at in &self.tests[..=test] {
-            own = [place(at.is_shifted), place(at.is_offset)];
-        }
-        own
+        let own = &self.tests[test];
+        let [shift, offset, gain] =
+            [own.is_shifted, own.is_offset, own.gain.is_some()].map(&mut place);
+        Places { shift, offset, gain, known: next }
     }
 
-    /// Shift \[s\] and offset of a test.
-    fn own(&self, test: usize, unknowns: &[f64]) -> [f64; 2] {
-        let Scale { length, peak, .. } = self.scales[test];
-        let [shift, offset] = self.places(test);
-        [
-            shift.map_or(0.0, |at| unknowns[at] * length),
-            offset.map_or(0.0, |at| unknowns[at] * peak),
-        ]
+    /// What a test has to itself.
+    pub(super) fn own(&self, test: usize, unknowns: &[f64]) -> Own {
+        let Record { length, peak, .. } = self.records[test];
+        let Places { shift, offset, gain, .. } = self.places(test);
+        let deviation = self.tests[test].gain.unwrap_or(0.0);
+        Own {
+            shift: shift.map_or(0.0, |at| unknowns[at] * length),
+            offset: offset.map_or(0.0, |at| unknowns[at] * peak),
+            gain: gain.map_or(1.0, |at| (unknowns[at] * deviation).exp()),
+        }
     }
 
     /// The unknowns where the numbers have these values and the peaks stand together.
@@ -93,50 +138,78 @@ impl<'t> Task<'t> {
     /// # Errors
     ///
     /// Why the model cannot be solved there.
-    pub(super) fn begin(&self, values: &[f64]) -> Result<Begun, String> {
+    pub(super) fn begin(&self, values: &[f64]) -> Result<Vec<f64>, String> {
         let mut start: Vec<f64> = values.iter().map(|own| own.ln()).collect();
-        let mut lower: Vec<f64> = self.numbers.iter().map(|own| own.low.ln()).collect();
-        let mut upper: Vec<f64> = self.numbers.iter().map(|own| own.high.ln()).collect();
         for (at, test) in self.tests.iter().enumerate() {
-            let scale = self.scales[at];
-            let curve = (self.model)(at, values)?;
+            let record = &self.records[at];
+            let known = test.known.iter().map(|own| own.mean);
+            let own: Vec<f64> = values.iter().copied().chain(known).collect();
+            let curve = (self.model)(at, &own)?;
             if test.is_shifted {
-                start.push(((scale.peak_time - curve.peak().0) / scale.length).clamp(-1.0, 1.0));
-                lower.push(-2.0);
-                upper.push(2.0);
+                let late = (record.peak_time - curve.peak().0) / record.length;
+                start.push(late.clamp(-1.0, 1.0));
             }
-            if test.is_offset {
-                start.push(0.0);
-                lower.push(-1.0);
-                upper.push(1.0);
-            }
+            start.resize(start.len() + usize::from(test.is_offset) + test.priors(), 0.0);
         }
-        Ok((start, [lower, upper]))
+        Ok(start)
     }
 
-    /// What is left of all rows, in parts of the peak of their test.
+    /// Between which values the unknowns are searched.
+    pub(super) fn bounds(&self) -> [Vec<f64>; 2] {
+        let own = self.tests.iter().flat_map(|test| {
+            let shift = test.is_shifted.then_some(LATEST);
+            let offset = test.is_offset.then_some(HIGHEST);
+            shift.into_iter().chain(offset).chain(repeat_n(FARTHEST, test.priors()))
+        });
+        let own: Vec<f64> = own.collect();
+        let with = |sign: f64, of: fn(&Number) -> f64| {
+            let numbers = self.numbers.iter().map(|own| of(own).ln());
+            numbers.chain(own.iter().map(|bound| sign * bound)).collect()
+        };
+        [with(-1.0, |own| own.low), with(1.0, |own| own.high)]
+    }
+
+    /// What is left of all rows, each in the unit of its test, and how far what is known is off.
     pub(super) fn left(&self, unknowns: &[f64]) -> Vec<f64> {
-        let values = self.values(unknowns);
         let mut all = Vec::with_capacity(self.rows());
         for at in 0..self.tests.len() {
-            let Ok(curve) = (self.model)(at, &values) else { return vec![f64::NAN; self.rows()] };
+            let Ok(curve) = (self.model)(at, &self.values_of(at, unknowns)) else {
+                return vec![f64::NAN; self.rows()];
+            };
             all.extend(self.left_of(at, curve.as_ref(), self.own(at, unknowns)));
+        }
+        for at in 0..self.tests.len() {
+            all.extend(self.priors(at).map(|place| unknowns[place]));
         }
         all
     }
 
+    /// The unknowns of a test that are known from elsewhere.
+    fn priors(&self, test: usize) -> Range<usize> {
+        let from = self.places(test).known - usize::from(self.tests[test].gain.is_some());
+        from..from + self.tests[test].priors()
+    }
+
     /// The rows of each test.
-    pub(super) fn parts(&self) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+    pub(super) fn parts(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let mut from = 0;
-        self.tests.iter().map(move |own| {
-            let rows = from..from + own.rows.len();
+        self.records.iter().map(move |own| {
+            let rows = from..from + own.rows();
             from = rows.end;
             rows
         })
     }
 
-    fn left_of(&self, test: usize, curve: &dyn Curve, [shift, offset]: [f64; 2]) -> Vec<f64> {
-        let Scale { peak, step, .. } = self.scales[test];
+    /// How many rows of a test are of samples before a time \[s\].
+    pub(super) fn rows_before(&self, test: usize, time: f64) -> usize {
+        let record = &self.records[test];
+        let samples = record.recorder.times().partition_point(|own| *own < time);
+        record.whitener.as_ref().map_or(samples, |own| own.before(samples))
+    }
+
+    /// The samples of a curve behind the filter, by a clock that is so late.
+    pub(super) fn recorded(&self, test: usize, curve: &dyn Curve, shift: f64) -> Vec<f64> {
+        let Record { step, .. } = self.records[test];
         let (rest, start) = (curve.value(-step), curve.value(0.0));
         // What jumps at the start rises within one step of the recorder: else no clock could be moved over a row.
         let value = |time: f64| {
@@ -146,40 +219,85 @@ impl<'t> Task<'t> {
                 curve.value(time)
             }
         };
-        let rows = self.tests[test].rows.iter();
-        rows.map(|(time, own)| (value(time - shift) + offset - own) / peak).collect()
+        self.records[test].recorder.record(|time| value(time - shift))
     }
 
-    /// The standard deviation that the median of what is left stands for.
-    pub(super) fn scale(&self, unknowns: &[f64]) -> Option<f64> {
-        let mut left: Vec<f64> = self.left(unknowns).iter().map(|own| own.abs()).collect();
-        left.sort_by(f64::total_cmp);
-        left.get(left.len() / 2).map(|own| super::OF_MEDIAN * own)
+    /// What is left of each sample, in SI units.
+    pub(super) fn differences(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<f64> {
+        let constant = &self.records[test].constant;
+        let recorded = self.recorded(test, curve, own.shift).into_iter().zip(constant);
+        let model = recorded.map(|(value, one)| own.gain * value + own.offset * one);
+        model.zip(&self.tests[test].rows).map(|(model, row)| model - row.1).collect()
     }
 
-    /// What there is to say about each test.
-    pub(super) fn told(&self, unknowns: &[f64]) -> Vec<TestFit> {
-        let values = self.values(unknowns);
-        let told = |at: usize| {
-            let [shift, offset] = self.own(at, unknowns);
-            let curve = (self.model)(at, &values).ok()?;
-            let peak = self.scales[at].peak;
-            let left = self.left_of(at, curve.as_ref(), [shift, offset]);
-            let residual: Vec<f64> = left.iter().map(|own| own * peak).collect();
-            let square: f64 = residual.iter().map(|own| own * own).sum();
-            let rows = self.tests[at].rows.iter().map(|own| own.1 - offset);
-            let measured = |most: f64, own: f64| if own.abs() > most.abs() { own } else { most };
-            Some(TestFit {
-                shift,
-                offset,
-                rms: (square / residual.len() as f64).sqrt(),
-                measured_peak: rows.fold(0.0, measured),
-                model_peak: curve.peak().1,
-                residual,
-                held_out: None,
-            })
+    fn left_of(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<f64> {
+        let differences = self.differences(test, curve, own);
+        self.counted(test, differences, 1.0)
+    }
+
+    /// Independent rows of values of all samples, times a factor, in the unit of the test.
+    fn counted(&self, test: usize, values: Vec<f64>, factor: f64) -> Vec<f64> {
+        let record = &self.records[test];
+        let mut all = record.independent(values);
+        all.iter_mut().for_each(|own| *own *= factor / record.unit);
+        all
+    }
+
+    /// The curve of a test.
+    pub(super) fn curve(&self, test: usize, unknowns: &[f64]) -> Result<Box<dyn Curve>, String> {
+        self.solved(test, &self.values_of(test, unknowns))
+    }
+
+    /// The curve of a test where its numbers have these values.
+    pub(super) fn solved(&self, test: usize, values: &[f64]) -> Result<Box<dyn Curve>, String> {
+        (self.model)(test, values)
+    }
+
+    /// Derivatives by a number, by differences within its bounds.
+    fn by_number(&self, at: usize, unknowns: &[f64]) -> Vec<f64> {
+        let [low, high] = [self.numbers[at].low.ln(), self.numbers[at].high.ln()];
+        let beside = |step: f64| {
+            let mut own = unknowns.to_vec();
+            own[at] = (own[at] + step).clamp(low, high);
+            (own[at], self.left(&own))
         };
-        (0..self.tests.len()).filter_map(told).collect()
+        let ((low, before), (high, after)) = (beside(-STEP), beside(STEP));
+        before.iter().zip(&after).map(|(one, other)| (other - one) / (high - low)).collect()
+    }
+
+    /// Derivatives of a test by its own unknowns: the place of each, and the column.
+    fn by_own(&self, test: usize, unknowns: &[f64]) -> Option<Vec<(usize, Vec<f64>)>> {
+        let (record, places) = (&self.records[test], self.places(test));
+        let curve = self.curve(test, unknowns).ok()?;
+        let own = self.own(test, unknowns);
+        let mut columns = Vec::new();
+        if let Some(at) = places.shift {
+            let step = TIME_STEP * record.length;
+            let [before, after] = [own.shift - step, own.shift + step]
+                .map(|shift| self.recorded(test, curve.as_ref(), shift));
+            let slopes = before.iter().zip(&after).map(|(one, other)| other - one).collect();
+            columns.push((at, self.counted(test, slopes, own.gain / (2.0 * TIME_STEP))));
+        }
+        if let Some(at) = places.offset {
+            columns.push((at, self.counted(test, record.constant.clone(), record.peak)));
+        }
+        if let Some(at) = places.gain {
+            let values = self.recorded(test, curve.as_ref(), own.shift);
+            let deviation = self.tests[test].gain.unwrap_or(0.0);
+            columns.push((at, self.counted(test, values, own.gain * deviation)));
+        }
+        for at in (places.known..).take(self.tests[test].known.len()) {
+            let beside = |step: f64| {
+                let mut moved = unknowns.to_vec();
+                moved[at] += step;
+                let curve = self.curve(test, &moved).ok()?;
+                Some(self.left_of(test, curve.as_ref(), own))
+            };
+            let (before, after) = (beside(-STEP)?, beside(STEP)?);
+            let slopes = before.iter().zip(&after).map(|(one, other)| (other - one) / (2.0 * STEP));
+            columns.push((at, slopes.collect()));
+        }
+        Some(columns)
     }
 }
 
@@ -191,33 +309,20 @@ impl Residuals for Task<'_> {
     fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(self.rows(), unknowns.len());
         for at in 0..self.numbers.len() {
-            let beside = |step: f64| {
-                let mut own = unknowns.to_vec();
-                own[at] += step;
-                own[at] = own[at].clamp(self.numbers[at].low.ln(), self.numbers[at].high.ln());
-                (own[at], self.left(&own))
-            };
-            let ((low, before), (high, after)) = (beside(-STEP), beside(STEP));
-            let each = before.iter().zip(&after).map(|(one, other)| (other - one) / (high - low));
-            jacobian.column_mut(at).iter_mut().zip(each).for_each(|(own, new)| *own = new);
+            jacobian.column_mut(at).copy_from_slice(&self.by_number(at, unknowns));
         }
-        let values = self.values(unknowns);
+        let mut prior = self.measured();
         for (test, rows) in self.parts().enumerate() {
-            let [shift, offset] = self.places(test);
-            if let Some(at) = offset {
-                jacobian.view_mut((rows.start, at), (rows.len(), 1)).fill(1.0);
-            }
-            let Some(at) = shift else { continue };
-            let Ok(curve) = (self.model)(test, &values) else {
+            let Some(columns) = self.by_own(test, unknowns) else {
                 jacobian.fill(f64::NAN);
-                continue;
+                return jacobian;
             };
-            let [own, offset] = self.own(test, unknowns);
-            let step = TIME_STEP * self.scales[test].length;
-            let [before, after] = [own - step, own + step]
-                .map(|shift| self.left_of(test, curve.as_ref(), [shift, offset]));
-            for (row, (one, other)) in rows.zip(before.iter().zip(&after)) {
-                jacobian[(row, at)] = (other - one) / (2.0 * TIME_STEP);
+            for (at, column) in columns {
+                jacobian.view_mut((rows.start, at), (rows.len(), 1)).copy_from_slice(&column);
+            }
+            for at in self.priors(test) {
+                jacobian[(prior, at)] = 1.0;
+                prior += 1;
             }
         }
         jacobian

@@ -3,11 +3,20 @@
 use dashpot_fit::linear::Record;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::DataTable;
+use dashpot_signal::Cfc;
 
-use crate::{args::assignment, error::CliError, measured::MeasuredFile, output::list};
+use super::scene::Varied;
+use crate::{
+    args::{assignment, frequency_class, share},
+    error::CliError,
+    measured::MeasuredFile,
+    output::list,
+};
 
 /// The option, for messages.
 pub(super) const FLAG: &str = "--to";
+/// Signs before a standard deviation.
+const SCATTER: [&str; 2] = ["±", "+-"];
 /// A compliance of a material, 1/Pa.
 const MATERIAL_COMPLIANCE: Dimension = Dimension::new(-1, 1, 2);
 
@@ -22,7 +31,11 @@ pub(super) struct Asked {
     /// A model, or an output of a scene.
     pub(super) target: String,
     /// What is set for this test alone.
-    pub(super) set: Vec<(String, String)>,
+    set: Vec<(String, String)>,
+    /// How it was recorded, where that is said of this test alone.
+    pub(super) cfc: Option<Cfc>,
+    pub(super) gain: Option<f64>,
+    pub(super) noise: Option<String>,
 }
 
 /// Reads one.
@@ -32,7 +45,14 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let (left, right) = text.split_once('=').ok_or(help)?;
     let mut right = right.split(',');
     let target = right.next().unwrap_or_default();
-    let set = right.map(assignment).collect::<Result<_, _>>()?;
+    let mut set: Vec<(String, String)> = right.map(assignment).collect::<Result<_, _>>()?;
+    let mut take = |word: &str| {
+        let at = set.iter().position(|own| own.0 == word)?;
+        Some(set.remove(at).1)
+    };
+    let cfc = take("cfc").map(|own| frequency_class(&own)).transpose()?;
+    let gain = take("gain").map(|own| share(&own)).transpose()?;
+    let noise = take("noise");
     let (file, columns) = left.rsplit_once(':').ok_or(help)?;
     let columns = list(columns.split(',').map(|own| own.trim().to_owned()));
     let (file, target) = (file.trim(), target.trim());
@@ -40,7 +60,8 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
         return Err(help.to_owned());
     }
     let (file, target) = (file.to_owned(), target.to_owned());
-    Ok(Asked { text: text.trim().to_owned(), file, columns, target, set })
+    let text = text.trim().to_owned();
+    Ok(Asked { text, file, columns, target, set, cfc, gain, noise })
 }
 
 /// A record of a file.
@@ -57,6 +78,17 @@ pub(super) struct Measured {
 }
 
 impl Asked {
+    /// What is set with a standard deviation.
+    pub(super) fn scattered(&self) -> impl Iterator<Item = &(String, String)> {
+        self.set.iter().filter(|own| SCATTER.iter().any(|sign| own.1.contains(sign)))
+    }
+
+    /// What is set but for the numbers that are known more or less.
+    pub(super) fn plain(&self, known: &[Varied]) -> Vec<(String, String)> {
+        let is_known = |name: &String| known.iter().any(|own| own.name == *name);
+        list(self.set.iter().filter(|own| !is_known(&own.0)).cloned())
+    }
+
     /// File, column and output, as for a curve beside a run.
     pub(super) fn measured_as(&self) -> String {
         format!("{}:{}={}", self.file, self.columns.join(","), self.target)

@@ -3,6 +3,8 @@
 mod asked;
 mod scene;
 mod scene_words;
+mod shown;
+mod solver;
 mod words;
 mod written;
 
@@ -12,6 +14,7 @@ use clap::Args;
 use dashpot_fit::linear::{
     LinearFault, LinearFit, LinearSettings, Record, RecordFault, fit as fit_spectrum,
 };
+use dashpot_signal::{Cfc, Padding};
 use serde::Serialize;
 
 use self::{
@@ -19,7 +22,7 @@ use self::{
     words::{Units, branches, comments, determined, ends, notes, records, warnings},
 };
 use crate::{
-    args::{Switch, ValueArguments, share, shift},
+    args::{Switch, ValueArguments, frequency_class, paddings, share, shift},
     error::{CliError, Status},
     input::Input,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
@@ -33,12 +36,14 @@ use crate::{
     dashpot fit --to \"relax.csv:G=felt\" --out felt.toml\n  \
     dashpot fit --to \"dma.csv:E',E''=felt\" --error 2%\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:force=pad.force\"\n  \
+    dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:acc=head.acceleration\" --cfc 180\n  \
     dashpot fit pad.toml --to \"hold.csv:stress=foam\" --until \"140 s\" --out fitted.toml\n\n\
     Files have names and units: times or frequencies, and moduli (relaxation, storage and loss), \
     compliances (creep), or a stress and the strain that was measured beside it, likewise forces \
     and deformations of a pad. A scene is fitted to forces, accelerations, velocities or \
     deformations over time; several tests share its numbers, and what differs is set behind a \
-    comma, as in \"low.csv:force=pad.force,head.drop=0.5 m\". What no network of springs and dashpots can meet is said, and what \
+    comma, as in \"low.csv:force=pad.force,head.drop=0.5 m\", or \"head.velocity=4.5 ± 0.05 m/s\" where it was measured, \
+    and how the test was recorded, as in \"cfc=180,noise=0.5 g,gain=1%\". What no network of springs and dashpots can meet is said, and what \
     the records do not determine.")]
 pub(crate) struct FitArguments {
     /// The scene whose numbers are fitted, or whose model is replaced; without it a model is written alone.
@@ -63,6 +68,21 @@ pub(crate) struct FitArguments {
     /// Whether the zero of a record of a scene may be off.
     #[arg(long, value_name = "WHEN", default_value = "on")]
     offset: Switch,
+    /// Whether the gain of a record of a scene may be off, and by which part: its standard deviation.
+    #[arg(long, value_name = "PART", requires = "vary", value_parser = share)]
+    gain: Option<f64>,
+    /// The channel frequency class that the records went through: the output of the scene goes through the same filter.
+    #[arg(long, value_name = "CLASS", requires = "vary", value_parser = frequency_class)]
+    cfc: Option<Cfc>,
+    /// What stood beyond the ends of a record for its filter.
+    #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
+    padding: String,
+    /// Standard deviation of a sample before the filter, "0.5 g"; found from what is left of the records by default.
+    #[arg(long, value_name = "VALUE", requires = "vary")]
+    noise: Option<String>,
+    /// Intervals of the profile likelihood for all numbers; else where the covariance falls short.
+    #[arg(long, requires = "vary")]
+    profile: bool,
     /// Whether rows that are far off count by their magnitude, in place of its square.
     #[arg(long, value_name = "WHEN", default_value = "on")]
     robust: Switch,
@@ -83,6 +103,12 @@ pub(crate) struct FitArguments {
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
+}
+
+impl FitArguments {
+    fn padding(&self) -> Padding {
+        Padding::ALL.into_iter().find(|own| own.word() == self.padding).unwrap_or_default()
+    }
 }
 
 /// What is told of a record.

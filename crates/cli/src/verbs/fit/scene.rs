@@ -1,43 +1,35 @@
 //! Numbers of a scene, fitted to curves that were measured on it.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
 use dashpot_analysis::Solve as _;
-use dashpot_fit::{
-    network::{Curve, NetworkFault, NetworkFit, NetworkSettings, Number, Test, fit},
-    structure::{Undetermined, undetermined},
+use dashpot_fit::network::{
+    Band, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Test, fit,
 };
-use dashpot_network::Network;
 use dashpot_scene::{
-    Posed, Scene, Tunables, Variation, pose, read,
+    ScatteredNumber, Scene, Tunables, Variation, read,
     units::{parse_quantity, si_unit},
 };
 
 use super::{
     FitArguments,
     asked::{Asked, FLAG},
+    shown::{Shown, shown},
+    solver::{Poser, Solver},
 };
 use crate::{
     args::Switch,
     error::CliError,
-    input::Input,
+    input::{Input, setting},
     operand::print_notes,
     output::list,
     terminal::{Terminal, note},
-    verbs::run::{
-        beside::{MeasuredCurve, Output},
-        recorded::Recorded,
-    },
+    verbs::run::beside::MeasuredCurve,
 };
 
 /// Digits of fitted numbers in a scene.
 const DIGITS: usize = 5;
-/// A number is moved by this part to see what it acts on.
-const MOVED: f64 = 1e-3;
-/// Tolerance of runs by stepping methods.
-const RTOL: f64 = 1e-9;
-/// Runs that are kept for each test, because they are asked for again.
-const KEPT: usize = 4;
+/// What was measured of a number of a test is not left by more standard deviations, nor by this factor.
+const FARTHEST: f64 = 8.0;
+const FACTOR: f64 = 4.0;
 
 /// A number that was fitted.
 pub(super) struct Varied {
@@ -49,15 +41,14 @@ pub(super) struct Varied {
     /// Its SI unit.
     pub(super) si: String,
     pub(super) bounds: [f64; 2],
-    at: usize,
+    pub(super) at: usize,
 }
 
-/// Constants that are determined in the place of numbers that are not.
-pub(super) struct Shown {
-    pub(super) element: String,
-    pub(super) numbers: Vec<String>,
-    /// Name, value, and the ends of its interval, each in an SI unit.
-    pub(super) constants: Vec<(String, f64, Option<[f64; 2]>, &'static str)>,
+/// A measure of the fitted scene: its key, its SI unit, and what the uncertainty of the numbers makes of it.
+pub(super) struct Measured {
+    pub(super) key: String,
+    pub(super) unit: &'static str,
+    pub(super) band: Band,
 }
 
 /// A scene that was fitted.
@@ -65,7 +56,11 @@ pub(super) struct FittedScene {
     pub(super) scene: Scene,
     pub(super) numbers: Vec<Varied>,
     pub(super) curves: Vec<(Asked, MeasuredCurve)>,
+    /// For each test its numbers that were measured besides.
+    pub(super) known: Vec<Vec<Varied>>,
+    pub(super) tests: Vec<Test>,
     pub(super) shown: Vec<Shown>,
+    pub(super) measures: Vec<Measured>,
     pub(super) fit: NetworkFit,
     tunables: Tunables,
 }
@@ -87,19 +82,20 @@ pub(super) fn fitted(
     let curves = arguments.to.iter().map(|own| Ok((own.clone(), read(own)?)));
     let curves = curves.collect::<Result<Vec<_>, CliError>>()?;
     curves.iter().filter_map(|own| own.1.note.as_deref()).for_each(note);
-    let tests: Vec<Test> = list(curves.iter().map(|(_, own)| Test {
-        rows: own.rows.clone(),
-        is_shifted: arguments.shift == Switch::On,
-        is_offset: arguments.offset == Switch::On,
-    }));
-    let solver = Solver {
+    let own = curves.iter().map(|own| own_numbers(&own.0, &tunables));
+    let own = own.collect::<Result<Vec<_>, _>>()?;
+    let tests = curves.iter().zip(&own);
+    let tests = tests.map(|((asked, curve), own)| test(arguments, asked, curve, own));
+    let tests = tests.collect::<Result<Vec<Test>, _>>()?;
+    let known: Vec<Vec<Varied>> =
+        list(own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0))));
+    let posers = curves.iter().zip(&known).map(|((asked, _), known)| Poser {
         input,
         tunables: &tunables,
-        numbers: &numbers,
-        set: list(curves.iter().map(|own| [&set[..], &own.0.set[..]].concat())),
-        outputs: list(curves.iter().map(|own| &own.1.output)),
-        kept: list(curves.iter().map(|_| Mutex::default())),
-    };
+        numbers: list(numbers.iter().chain(known)),
+        set: [unvaried(set, &numbers, &tunables), asked.plain(known)].concat(),
+    });
+    let posers: Vec<Poser<'_>> = list(posers);
     let begin = |own: &Varied| {
         let [low, high] = own.bounds;
         let start = tunables.all()[own.at].value;
@@ -111,15 +107,151 @@ pub(super) fn fitted(
         starts: arguments.starts,
         seed: arguments.seed,
         is_robust: arguments.robust == Switch::On,
+        is_profiled: arguments.profile,
     };
-    let fit = fit(&begun, &tests, settings, &|test, values| solver.curve(test, values));
+    let fit = searched(&begun, &tests, settings, (&posers, &curves));
     let mut fit = fit.map_err(|fault| wrong(&fault, &curves))?;
-    let shown = solver.shown(&fit)?;
+    let fault = |reason| CliError::Fit { text: "scene".to_owned(), reason };
+    let means: Vec<f64> = list(tests[0].known.iter().map(|own| own.mean));
+    let network = |values: &[f64]| {
+        posers[0].posed(&[values, &means].concat()).map(|own| own.network).map_err(fault)
+    };
+    let shown = shown(&fit, &numbers, &network)?;
     // What no test tells apart has no intervals, whatever rounding makes of them.
     let is_shown = |own: &Varied| shown.iter().any(|other| other.numbers.contains(&own.name));
     let each = numbers.iter().zip(&mut fit.numbers).filter(|own| is_shown(own.0));
-    each.for_each(|own| own.1.ends = None);
-    Ok(FittedScene { scene, numbers, curves, shown, fit, tunables })
+    each.for_each(|own| own.1.ends = [None; 2]);
+    let whole = Poser { input, tunables: &tunables, numbers: list(&numbers), set: set.clone() };
+    let measures = measures(&whole, &fit);
+    drop(posers);
+    Ok(FittedScene { scene, numbers, curves, known, tests, shown, measures, fit, tunables })
+}
+
+/// What is set but for numbers that are fitted: it would stand above what is written into the text.
+fn unvaried(
+    set: &[(String, String)],
+    numbers: &[Varied],
+    tunables: &Tunables,
+) -> Vec<(String, String)> {
+    let is_varied =
+        |name: &str| tunables.find(name).is_ok_and(|at| numbers.iter().any(|own| own.at == at));
+    list(set.iter().filter(|own| !is_varied(&own.0)).cloned())
+}
+
+/// Searches the numbers: with one compiled form of each test where full runs agree with it at what was found.
+fn searched(
+    begun: &[Number],
+    tests: &[Test],
+    settings: NetworkSettings,
+    (posers, curves): (&[Poser<'_>], &[(Asked, MeasuredCurve)]),
+) -> Result<NetworkFit, NetworkFault> {
+    let point = |own: &'_ Poser<'_>, values: &[f64]| own.point(values);
+    let points = posers.iter().map(|own| move |values: &[f64]| point(own, values));
+    let points: Vec<_> = list(points);
+    let each = posers.iter().zip(&points).zip(curves).zip(tests);
+    let solvers = each.map(|(((poser, point), (_, curve)), test)| {
+        let starts = begun.iter().map(|own| own.start).chain(test.known.iter().map(|own| own.mean));
+        let bounds = begun.iter().map(|own| [own.low, own.high]);
+        let bounds = bounds.chain(test.known.iter().map(around));
+        let (starts, bounds): (Vec<f64>, Vec<[f64; 2]>) = (list(starts), list(bounds));
+        Solver::new(poser, point, &curve.output, &starts, &bounds)
+    });
+    let solvers: Vec<Solver<'_>> = list(solvers);
+    let model = |test: usize, values: &[f64]| solvers[test].curve(values);
+    let found = fit(begun, tests, settings, &model)?;
+    let is_alike = |(at, own): (usize, &Solver<'_>)| {
+        let values = found.numbers.iter().map(|own| own.value);
+        let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
+        own.agrees(&values)
+    };
+    // All are asked: each that does not agree goes on with full runs.
+    let unlike = solvers.iter().enumerate().filter(|own| !is_alike(*own)).count();
+    if unlike == 0 { Ok(found) } else { fit(begun, tests, settings, &model) }
+}
+
+/// Within which values a number that was measured besides is looked for.
+fn around(own: &Known) -> [f64; 2] {
+    let [low, high] = [-1.0, 1.0].map(|sign| own.mean + sign * FARTHEST * own.deviation);
+    [low.max(own.mean / FACTOR), high]
+}
+
+/// The measures of the fitted scene with their bands; none where it cannot be solved.
+fn measures(poser: &Poser<'_>, fit: &NetworkFit) -> Vec<Measured> {
+    let run = |values: &[f64]| {
+        let point = poser.point(values).ok()?;
+        point.network.solve_with(&point.settings).ok()
+    };
+    let values: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
+    let Some(first) = run(&values) else { return Vec::new() };
+    let read = |values: &[f64]| {
+        let run = run(values)?;
+        let value = |key: &str| run.measure(key).and_then(|own| own.value);
+        Some(list(first.measures.iter().map(|own| value(&own.key))))
+    };
+    let bands = fit.bands(&read).unwrap_or_default();
+    let each = first.measures.iter().zip(bands);
+    let each = each.filter_map(|(own, band)| {
+        Some(Measured { key: own.key.clone(), unit: own.unit, band: band? })
+    });
+    each.collect()
+}
+
+/// Numbers of a test that were measured besides.
+struct OwnNumbers {
+    numbers: Vec<(Varied, Known)>,
+}
+
+/// What is set for a test alone with a standard deviation.
+fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliError> {
+    let wrong = |reason: String| CliError::Fit { text: asked.text.clone(), reason };
+    let mut numbers = Vec::new();
+    for (name, value) in asked.scattered() {
+        let at = tunables.find(name);
+        let at = at.map_err(|fault| CliError::Tunable { flag: FLAG, fault })?;
+        let text = tunables.text_with(&[(at, value.clone())]);
+        let all = ScatteredNumber::all(&text, None).map_err(CliError::Scene)?;
+        let own = all.into_iter().find(|own| own.path == tunables.all()[at].path);
+        let own = own.ok_or_else(|| wrong(format!("`{value}` has no standard deviation")))?;
+        if own.mean <= 0.0 || own.dimension != tunables.all()[at].dimension {
+            let reason = format!(
+                "`{name}` with a standard deviation wants a value above zero, as in the scene"
+            );
+            return Err(wrong(reason));
+        }
+        let si = own.dimension.map_or(String::new(), si_unit);
+        let unit = tunables.all()[at].unit.clone();
+        let one = parse_quantity(&format!("1 {unit}"));
+        let one = one.map_or(1.0, |one| own.dimension.map_or(one, |to| one.meant(to)).value);
+        let known = Known { mean: own.mean, deviation: own.deviation };
+        let bounds = around(&known);
+        numbers.push((Varied { name: name.clone(), unit, one, si, bounds, at }, known));
+    }
+    Ok(OwnNumbers { numbers })
+}
+
+/// A test: its rows, and what the command line tells of how they were recorded.
+fn test(
+    arguments: &FitArguments,
+    asked: &Asked,
+    curve: &MeasuredCurve,
+    own: &OwnNumbers,
+) -> Result<Test, CliError> {
+    let noise = asked.noise.as_ref().or(arguments.noise.as_ref());
+    let noise = noise.map(|text| setting("--noise", text, curve.output.dimension())).transpose()?;
+    if noise.is_some_and(|own| own.is_nan() || own <= 0.0) {
+        let reason = "noise is a standard deviation above zero".to_owned();
+        return Err(CliError::Fit { text: asked.text.clone(), reason });
+    }
+    let cfc = asked.cfc.or(arguments.cfc);
+    Ok(Test {
+        rows: curve.rows.clone(),
+        is_shifted: arguments.shift == Switch::On,
+        is_offset: arguments.offset == Switch::On,
+        gain: asked.gain.or(arguments.gain),
+        filter: cfc.map(|own| (own, arguments.padding())),
+        noise,
+        known: list(own.numbers.iter().map(|own| own.1)),
+    })
 }
 
 fn wrong(fault: &NetworkFault, curves: &[(Asked, MeasuredCurve)]) -> CliError {
@@ -127,6 +259,7 @@ fn wrong(fault: &NetworkFault, curves: &[(Asked, MeasuredCurve)]) -> CliError {
         NetworkFault::Nothing { test } => {
             (&curves[*test].0.text, "its values are zero throughout".to_owned())
         }
+        NetworkFault::Filter { test, fault } => (&curves[*test].0.text, fault.to_string()),
         _ => (&curves[0].0.text, fault.to_string()),
     };
     CliError::Fit { text: text.clone(), reason }
@@ -156,128 +289,6 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         Ok(Varied { name: own.name.clone(), unit: unit.clone(), one, si, bounds, at })
     });
     varied.collect()
-}
-
-/// A run for these numbers.
-type Kept = (Vec<f64>, Arc<Recorded>);
-
-/// What solves the scene for given numbers.
-struct Solver<'s> {
-    input: &'s Input,
-    tunables: &'s Tunables,
-    numbers: &'s [Varied],
-    /// What is set for each test.
-    set: Vec<Vec<(String, String)>>,
-    outputs: Vec<&'s Output>,
-    /// For each test the last runs, with their numbers.
-    kept: Vec<Mutex<Vec<Kept>>>,
-}
-
-impl Solver<'_> {
-    fn posed(&self, set: &[(String, String)], values: &[f64]) -> Result<Posed, String> {
-        let each = self.numbers.iter().zip(values);
-        let texts = each.map(|(own, value)| (own.at, format!("{value:e} {}", own.si)));
-        let texts: Vec<(usize, String)> =
-            list(texts.map(|(at, text)| (at, text.trim_end().to_owned())));
-        let text = self.tunables.text_with(&texts);
-        pose(&text, &self.input.options(set)).map_err(|faults| {
-            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
-            messages.collect::<Vec<_>>().join("; ")
-        })
-    }
-
-    fn curve(&self, test: usize, values: &[f64]) -> Result<Box<dyn Curve>, String> {
-        let is_it = |own: &&Kept| {
-            own.0.iter().zip(values).all(|(one, other)| one.to_bits() == other.to_bits())
-        };
-        let kept = || self.kept[test].lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = kept().iter().find(is_it) {
-            return Ok(Box::new(Shared(Arc::clone(&own.1))));
-        }
-        let posed = self.posed(&self.set[test], values)?;
-        let method = match &posed.run.methods[..] {
-            [only] => only,
-            _ => "auto",
-        };
-        let mut settings = posed.settings(method).map_err(|error| error.to_string())?;
-        settings.estimate = false;
-        // Differences of runs are taken, which exact ones bear anyhow.
-        settings.rtol = settings.rtol.or(Some(RTOL));
-        settings.measures.clear();
-        settings.limits.clear();
-        let run = posed.network.solve_with(&settings).map_err(|error| error.to_string())?;
-        let output = self.outputs[test];
-        let lacks = || format!("`{}` is not kept in this run", output.key());
-        let own = Arc::new(Recorded::of(&run, output).ok_or_else(lacks)?);
-        let mut kept = kept();
-        if kept.len() == KEPT {
-            kept.remove(0);
-        }
-        kept.push((values.to_vec(), Arc::clone(&own)));
-        Ok(Box::new(Shared(own)))
-    }
-
-    /// What is determined in the place of numbers that are not.
-    fn shown(&self, fit: &NetworkFit) -> Result<Vec<Shown>, CliError> {
-        let values: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
-        let network = |values: &[f64]| -> Result<Network, CliError> {
-            let posed = self.posed(&self.set[0], values);
-            let fault = |reason| CliError::Fit { text: "scene".to_owned(), reason };
-            posed.map(|own| own.network).map_err(fault)
-        };
-        let moved = (0..values.len()).map(|at| {
-            let mut own = values.clone();
-            own[at] *= 1.0 + MOVED;
-            network(&own)
-        });
-        let (base, moved) = (network(&values)?, moved.collect::<Result<Vec<_>, _>>()?);
-        Ok(list(
-            undetermined(&base, &moved).iter().map(|own| self.constants(own, &base, &moved, fit)),
-        ))
-    }
-
-    fn constants(
-        &self,
-        own: &Undetermined,
-        base: &Network,
-        moved: &[Network],
-        fit: &NetworkFit,
-    ) -> Shown {
-        let values = own.constants(base);
-        let beside: Vec<Vec<f64>> = list(moved.iter().map(|other| own.constants(other)));
-        let constant = |(at, (name, value)): (usize, (&String, &f64))| {
-            // Of the logarithm, by the logarithms of the numbers.
-            let gradient: Vec<f64> =
-                list(beside.iter().map(|other| (other[at] / value).ln() / MOVED.ln_1p()));
-            let ends = fit.interval_of(&gradient).map(|factor| [value / factor, value * factor]);
-            let unit = if own.is_spring(base, at) { "N/m" } else { "N s/m" };
-            (name.clone(), *value, ends, unit)
-        };
-        let constants = own.shown.iter().zip(&values).enumerate().map(constant);
-        let names = own.numbers.iter().map(|at| self.numbers[*at].name.clone());
-        Shown {
-            element: own.element.clone(),
-            numbers: names.collect(),
-            constants: constants.filter(|own| own.1.is_finite()).collect(),
-        }
-    }
-}
-
-/// A record that is asked for again.
-struct Shared(Arc<Recorded>);
-
-impl Curve for Shared {
-    fn value(&self, time: f64) -> f64 {
-        self.0.value(time)
-    }
-
-    fn peak(&self) -> (f64, f64) {
-        let Recorded { signal, zero, end, .. } = &*self.0;
-        let peak = signal.absolute_maximum((0.0, *end));
-        let sides = [signal.left_value(peak.time), signal.value(peak.time)];
-        let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
-        (peak.time - zero, peak.value.copysign(signed))
-    }
 }
 
 impl FittedScene {

@@ -1,10 +1,13 @@
 //! What a fit of numbers of a scene says.
 
-use dashpot_fit::network::{Interval, TestFit};
+use dashpot_fit::network::{Interval, Source, Test, TestFit};
 use dashpot_plot::Table;
 use serde::Serialize;
 
-use super::scene::{FittedScene, Shown, Varied};
+use super::{
+    scene::{FittedScene, Varied},
+    shown::Shown,
+};
 use crate::{
     input::title,
     numbers::{percent_signed, quantity, significant},
@@ -20,6 +23,8 @@ const FEW: usize = 3;
 const MISSED: f64 = 0.05;
 /// A record that ends behind the run by more than this part of it is told.
 const BEYOND: f64 = 0.01;
+/// What is left of a record in parts of its noise, beyond which it is not noise alone.
+const NOISIER: f64 = 1.5;
 /// More others are not listed.
 const MOST_OTHERS: usize = 3;
 
@@ -30,10 +35,7 @@ fn value(own: &Varied, value: f64) -> String {
 }
 
 fn ends(own: &Varied, found: &Interval) -> [String; 2] {
-    match found.ends {
-        Some(ends) => ends.map(|end| value(own, end)),
-        None => ["no bound".to_owned(), "no bound".to_owned()],
-    }
+    found.ends.map(|end| end.map_or_else(|| "no bound".to_owned(), |end| value(own, end)))
 }
 
 impl FittedScene {
@@ -82,6 +84,51 @@ impl FittedScene {
         Table::new("Tests", &header, rows)
     }
 
+    /// What tests have to themselves besides, and what noise there is.
+    fn own_table(&self) -> Option<Table> {
+        let is_more = self.tests.iter().any(|own| {
+            own.gain.is_some()
+                || own.filter.is_some()
+                || own.noise.is_some()
+                || !own.known.is_empty()
+        });
+        let rows = self.curves.iter().zip(&self.fit.tests).enumerate().map(|(at, both)| {
+            let ((asked, curve), own) = both;
+            let of = |value: f64| quantity(value, curve.output.unit(), FEW);
+            let cfc =
+                self.tests[at].filter.map_or_else(String::new, |own| own.0.class().to_string());
+            let gain =
+                self.tests[at].gain.map_or_else(String::new, |_| percent_signed(own.gain - 1.0));
+            let known = self.known[at].iter().zip(&own.known);
+            let known = known.map(|(own, found)| format!("{} {}", own.name, value(own, *found)));
+            let at_rest = own.noise_at_rest.map_or_else(String::new, of);
+            vec![
+                asked.file.clone(),
+                cfc,
+                of(own.noise),
+                at_rest,
+                gain,
+                known.collect::<Vec<_>>().join(", "),
+            ]
+        });
+        let header =
+            ["file", "CFC", "noise of a sample", "before the impact", "gain", "its own numbers"];
+        is_more.then(|| Table::new("Records", &header, rows))
+    }
+
+    /// What the uncertainty of the numbers makes of the measures.
+    fn measures_table(&self) -> Table {
+        let rows = self.measures.iter().map(|own| {
+            let of = |value: f64| quantity(value, own.unit, DIGITS);
+            let half = own.band.half.map_or("not determined".to_owned(), |half| {
+                format!("± {}", quantity(half, own.unit, 2))
+            });
+            let bent = if own.band.is_bent { "curved: an order only" } else { "" };
+            vec![own.key.clone(), of(own.band.value), half, bent.to_owned()]
+        });
+        Table::new("The fitted scene", &["", "value", "from the numbers", ""], rows)
+    }
+
     /// What comes first.
     fn said_first(&self) -> Vec<String> {
         let mut all = Vec::new();
@@ -95,8 +142,7 @@ impl FittedScene {
             let bounds = own.bounds.map(|bound| value(own, bound));
             let found = value(own, fit.numbers[at].value);
             all.push(format!(
-                "`{}` is on a bound of {} to {}, at {found}: it has no interval, and those of the others hold only \
-                 with it there",
+                "`{}` is on a bound of {} to {}, at {found}: the covariance of the others holds only with it there",
                 own.name, bounds[0], bounds[1]
             ));
         }
@@ -132,12 +178,21 @@ impl FittedScene {
                 )
             })
         }));
-        all.extend(
-            self.curves
-                .iter()
-                .zip(&fit.tests)
-                .filter_map(|((asked, _), own)| misses(&asked.file, own)),
-        );
+        let each = || self.curves.iter().zip(&fit.tests).zip(&self.tests);
+        all.extend(each().filter_map(|(((asked, _), own), test)| misses(&asked.file, own, test)));
+        all.extend(each().filter_map(|(((asked, curve), own), test)| {
+            let known = test.noise.or(own.noise_at_rest)?;
+            (own.noise > NOISIER * known).then(|| {
+                let of = |value: f64| quantity(value, curve.output.unit(), FEW);
+                format!(
+                    "{}: what is left is {} where noise is {}: the scene, or what is said of the record, is not quite \
+                     what was tested, and intervals tell nothing of that",
+                    asked.file,
+                    of(own.noise),
+                    of(known)
+                )
+            })
+        }));
         all
     }
 
@@ -155,6 +210,16 @@ impl FittedScene {
                 String::new()
             }
         )];
+        let profiled = self.numbers.iter().zip(&fit.numbers);
+        let profiled = profiled.filter(|own| own.1.source == Source::Profile);
+        let profiled: Vec<String> = list(profiled.map(|own| format!("`{}`", own.0.name)));
+        if !profiled.is_empty() {
+            all.push(format!(
+                "of {} they are those of the profile likelihood: how far it may be held elsewhere, with all else \
+                 fitted to that",
+                profiled.join(", ")
+            ));
+        }
         if fit.outliers > 0 {
             let rows = if fit.outliers == 1 { "row is" } else { "rows are" };
             all.push(format!(
@@ -208,13 +273,17 @@ fn undetermined(own: &Shown) -> String {
     )
 }
 
-fn misses(file: &str, own: &TestFit) -> Option<String> {
+fn misses(file: &str, own: &TestFit, test: &Test) -> Option<String> {
     let off = own.model_peak / own.measured_peak - 1.0;
     (off.abs() > MISSED).then(|| {
         format!(
-            "the peak of {file} is missed by {}: noise, a filter that the record went through, or a model that it is \
-             not",
-            percent_signed(off)
+            "the peak of {file} is missed by {}: noise, {}a model that it is not",
+            percent_signed(off),
+            if test.filter.is_none() {
+                "a filter that the record went through (`--cfc`), or "
+            } else {
+                "or "
+            }
         )
     })
 }
@@ -229,6 +298,10 @@ impl Study for FittedScene {
         text.title(title(&self.scene));
         text.table(&self.numbers_table());
         text.table(&self.tests_table());
+        self.own_table().iter().for_each(|own| text.table(own));
+        if !self.measures.is_empty() {
+            text.table(&self.measures_table());
+        }
         text.blank();
         text.items(self.remarks());
     }
@@ -240,11 +313,13 @@ impl Study for FittedScene {
     fn object(&self) -> impl Serialize {
         let parameters = self.numbers.iter().zip(&self.fit.numbers).enumerate();
         let parameters = parameters.map(|(at, (own, found))| {
-            let [low, high] = found.ends.map_or([None; 2], |ends| ends.map(Some));
+            let [low, high] = found.ends;
             let identified = self.verdict(at) == "identified";
             let on_bound = found.is_on_bound;
+            let profiled = found.source == Source::Profile;
             let (value, unit) = (found.value, &own.si);
-            (own.name.as_str(), object! { value, low, high, unit, identified, on_bound })
+            let own = object! { value, low, high, unit, identified, on_bound, profiled };
+            (self.numbers[at].name.as_str(), own)
         });
         let shown = self.shown.iter().map(|own| {
             let constants = own.constants.iter().map(|(name, value, ends, unit)| {
@@ -253,7 +328,10 @@ impl Study for FittedScene {
             });
             object! { element: &own.element, parameters: &own.numbers, constants: list(constants) }
         });
-        let tests = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
+        let tests = self.curves.iter().zip(&self.fit.tests).enumerate();
+        let tests = tests.map(|(at, ((asked, curve), own))| {
+            let known = self.known[at].iter().zip(&own.known);
+            let known = known.map(|(own, value)| (own.name.as_str(), object! { value, unit: &own.si }));
             object! {
                 file: &asked.file,
                 output: curve.output.key(),
@@ -264,15 +342,32 @@ impl Study for FittedScene {
                 measured_peak: own.measured_peak,
                 model_peak: own.model_peak,
                 held_out: own.held_out,
+                cfc: self.tests[at].filter.map(|own| own.0.class()),
+                noise: own.noise,
+                noise_at_rest: own.noise_at_rest,
+                gain: own.gain,
+                known: known.collect::<Pairs<_, _>>(),
+                curve: object! {
+                    time: list(curve.rows.iter().map(|row| row.0)),
+                    measured: list(curve.rows.iter().map(|row| row.1)),
+                    model: list(curve.rows.iter().zip(&own.residual).map(|(row, left)| row.1 + left)),
+                    band: &own.band,
+                },
             }
         });
         let others = self.fit.others.iter();
+        let measures = self.measures.iter().map(|own| {
+            let (value, unit, curved) = (own.band.value, own.unit, own.band.is_bent);
+            let [low, high] = [-1.0, 1.0].map(|sign| own.band.half.map(|half| value + sign * half));
+            (own.key.as_str(), object! { value, low, high, unit, curved })
+        });
         object! {
             dashpot: VERSION,
             title: &self.scene.title,
             file: &self.scene.file,
             parameters: parameters.collect::<Pairs<_, _>>(),
             determined: list(shown),
+            measures: measures.collect::<Pairs<_, _>>(),
             tests: list(tests),
             converged: self.fit.is_converged,
             floor: None::<f64>,

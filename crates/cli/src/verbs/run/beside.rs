@@ -90,6 +90,11 @@ impl Output {
         format!("{}.{}", self.name, self.of.word())
     }
 
+    /// What it measures.
+    pub(in crate::verbs) fn dimension(&self) -> Dimension {
+        dimension(self.of)
+    }
+
     /// Its SI unit.
     pub(in crate::verbs) fn unit(&self) -> &'static str {
         dimension(self.of).named().map_or("1", |own| own.1)

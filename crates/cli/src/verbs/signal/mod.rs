@@ -10,10 +10,7 @@ mod zip;
 
 use std::path::PathBuf;
 
-use clap::{
-    Args,
-    builder::{PossibleValue, PossibleValuesParser},
-};
+use clap::Args;
 use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::units::parse_quantity;
@@ -25,7 +22,7 @@ use self::{
     read::{Record, Wanted},
 };
 use crate::{
-    args::{frequency_class, shift},
+    args::{frequency_class, paddings, shift},
     error::{CliError, Status},
     folder::{Folder, Staged},
     output::{Study, Text, emit},
@@ -100,11 +97,6 @@ pub(crate) struct SignalArguments {
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
-}
-
-fn paddings() -> PossibleValuesParser {
-    let value = |own: Padding| PossibleValue::new(own.word()).help(own.summary());
-    PossibleValuesParser::new(Padding::ALL.map(value))
 }
 
 fn frequency(text: &str) -> Result<f64, String> {

@@ -2,6 +2,9 @@ use dashpot_numerics::Stream;
 
 use super::*;
 
+mod entangled;
+mod filtered;
+
 /// A mass that strikes a Maxwell element at 1 m/s: `F″ + (k/c) F′ + (k/m) F = 0`, `F′(0) = k v`.
 struct Pulse {
     stiffness: f64,
@@ -56,10 +59,11 @@ fn test(seed: u64, noise: f64) -> Test {
         let time = 5e-5 * f64::from(at);
         (time, truth.value(time - 3e-4) + 5.0 + noise * normal(&mut stream))
     });
-    Test { rows: rows.collect(), is_shifted: true, is_offset: true }
+    Test { rows: rows.collect(), is_shifted: true, is_offset: true, ..Test::default() }
 }
 
-const SETTINGS: NetworkSettings = NetworkSettings { starts: 4, seed: 1, is_robust: true };
+const SETTINGS: NetworkSettings =
+    NetworkSettings { starts: 4, seed: 1, is_robust: true, is_profiled: false };
 
 #[test]
 fn every_start_within_a_decade_and_a_half_leads_to_the_minimum() {
@@ -87,7 +91,7 @@ fn intervals_cover_what_made_the_tests() {
         let settings = NetworkSettings { starts: 1, ..SETTINGS };
         let own = fit(&numbers(), &[test(seed, 20.0)], settings, &|_, own| Ok(pulse(own))).unwrap();
         for (at, found) in own.numbers.iter().enumerate() {
-            let [low, high] = found.ends.unwrap();
+            let [low, high] = found.ends.map(Option::unwrap);
             covered[at] += usize::from((low..=high).contains(&TRUE[at]));
         }
     }
@@ -106,7 +110,7 @@ fn two_numbers_of_which_only_the_sum_is_seen_are_not_determined() {
         .collect();
     let model = |_: usize, own: &[f64]| Ok(pulse(&[own[0] + own[1], own[2]]));
     let own = fit(&numbers, &[test(2, 5.0)], SETTINGS, &model).unwrap();
-    assert!(own.numbers[0].ends.is_none() && own.numbers[1].ends.is_none(), "{:?}", own.numbers);
+    assert!(own.numbers[..2].iter().all(|own| own.ends == [None; 2]), "{:?}", own.numbers);
     assert!(own.numbers[2].is_identified());
     let sum = own.numbers[0].value + own.numbers[1].value;
     assert!((sum / TRUE[0] - 1.0).abs() < 0.03, "{sum}");
@@ -149,7 +153,7 @@ fn a_pad_that_hardens_is_missed_at_the_height_that_was_left_out() {
         let truth = pulse(&[TRUE[0] * speed, TRUE[1]]);
         let rows =
             (0..300).map(|at| (5e-5 * f64::from(at), speed * truth.value(5e-5 * f64::from(at))));
-        Test { rows: rows.collect(), is_shifted: true, is_offset: false }
+        Test { rows: rows.collect(), is_shifted: true, is_offset: false, ..Test::default() }
     };
     let speeds = [1.0, 1.5];
     let model = |test: usize, own: &[f64]| -> Result<Box<dyn Curve>, String> {
@@ -180,7 +184,7 @@ fn a_jump_at_the_start_does_not_hold_the_clock() {
         let truth = Struck(800.0, 2e-3);
         let times = (0..300).map(|at| 5e-5 * f64::from(at));
         let rows = times.map(|t| (t, truth.value(t - late))).collect();
-        let test = Test { rows, is_shifted: true, is_offset: false };
+        let test = Test { rows, is_shifted: true, is_offset: false, ..Test::default() };
         let numbers =
             [800.0, 2e-3].map(|own| Number { low: own / 9.0, high: own * 9.0, start: own * 2.0 });
         let own = fit(&numbers, &[test], SETTINGS, &|_, own| Ok(Box::new(Struck(own[0], own[1]))));
@@ -195,9 +199,15 @@ fn what_cannot_be_fitted_is_told() {
     let fault =
         |tests: &[Test], model: &Model<'_>| fit(&numbers(), tests, SETTINGS, model).unwrap_err();
     let model = |_: usize, own: &[f64]| Ok(pulse(own));
-    let short = Test { rows: vec![(0.0, 1.0), (1.0, 2.0)], is_shifted: true, is_offset: true };
+    let short = Test {
+        rows: vec![(0.0, 1.0), (1.0, 2.0)],
+        is_shifted: true,
+        is_offset: true,
+        ..Test::default()
+    };
     assert_eq!(fault(&[short], &model), NetworkFault::TooFew { rows: 2, unknowns: 4 });
-    let nothing = Test { rows: vec![(0.0, 0.0); 9], is_shifted: true, is_offset: true };
+    let nothing =
+        Test { rows: vec![(0.0, 0.0); 9], is_shifted: true, is_offset: true, ..Test::default() };
     assert_eq!(fault(&[nothing], &model), NetworkFault::Nothing { test: 0 });
     let own = fault(&[test(1, 1.0)], &|_, _| Err("loose".to_owned()));
     assert!(own.to_string().contains("loose"), "{own}");

@@ -1,0 +1,242 @@
+//! What solves the scene of a test for given numbers: contact forces of one compiled form where that agrees with full
+//! runs, else full runs.
+
+use std::sync::{
+    Arc, Mutex, PoisonError,
+    atomic::{AtomicBool, Ordering},
+};
+
+use dashpot_analysis::{
+    RunReport, Solve as _,
+    sweep::{ContactForce, ContactForces, PoseAt, ScenePoint},
+};
+use dashpot_dae::Signal;
+use dashpot_fit::network::Curve;
+use dashpot_network::Assembly;
+use dashpot_plot::Of;
+use dashpot_scene::{Posed, Tunables, pose};
+
+use super::scene::Varied;
+use crate::{
+    input::Input,
+    output::list,
+    verbs::run::{beside::Output, series::first_touch},
+};
+
+/// Tolerance of runs by stepping methods.
+const RTOL: f64 = 1e-9;
+/// Runs that are kept for each test, because they are asked for again.
+const KEPT: usize = 4;
+/// Forces of one form may differ from full runs by this part of the peak.
+const ALIKE: f64 = 1e-6;
+/// Places at which they are compared.
+const LOOKS: usize = 200;
+
+/// Why a scene cannot be solved, in words.
+type Solved<T> = Result<T, String>;
+
+/// A scene whose numbers are written into its text.
+pub(super) struct Poser<'s> {
+    pub(super) input: &'s Input,
+    pub(super) tunables: &'s Tunables,
+    /// The numbers that are written, in the order of their values.
+    pub(super) numbers: Vec<&'s Varied>,
+    /// What is set besides.
+    pub(super) set: Vec<(String, String)>,
+}
+
+impl Poser<'_> {
+    /// The scene where the numbers have these values in SI units.
+    pub(super) fn posed(&self, values: &[f64]) -> Solved<Posed> {
+        let each = self.numbers.iter().zip(values);
+        let texts = each.map(|(own, value)| (own.at, format!("{value:e} {}", own.si)));
+        let texts: Vec<(usize, String)> =
+            list(texts.map(|(at, text)| (at, text.trim_end().to_owned())));
+        let text = self.tunables.text_with(&texts);
+        pose(&text, &self.input.options(&self.set)).map_err(|faults| {
+            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+            messages.collect::<Vec<_>>().join("; ")
+        })
+    }
+
+    /// The same with what is asked of a run of which differences are taken.
+    pub(super) fn point(&self, values: &[f64]) -> Solved<ScenePoint> {
+        let posed = self.posed(values)?;
+        let method = match &posed.run.methods[..] {
+            [only] => only,
+            _ => "auto",
+        };
+        let mut settings = posed.settings(method).map_err(|error| error.to_string())?;
+        settings.estimate = false;
+        // Differences of runs are taken, which exact ones bear anyhow.
+        settings.rtol = settings.rtol.or(Some(RTOL));
+        Ok(ScenePoint { network: posed.network, settings })
+    }
+}
+
+/// A run for these numbers.
+type Kept = (Vec<f64>, Arc<Recorded>);
+
+/// What solves the scene of a test.
+pub(super) struct Solver<'s> {
+    poser: &'s Poser<'s>,
+    output: &'s Output,
+    forces: Option<ContactForces<'s>>,
+    /// Whether the forces were found to be those of full runs.
+    is_fast: AtomicBool,
+    /// The last full runs.
+    kept: Mutex<Vec<Kept>>,
+}
+
+impl<'s> Solver<'s> {
+    /// For an output of a scene; its form is taken at a point within bounds, where full runs must agree with it.
+    pub(super) fn new(
+        poser: &'s Poser<'s>,
+        point: &'s PoseAt<'s>,
+        output: &'s Output,
+        at: &[f64],
+        bounds: &[[f64; 2]],
+    ) -> Self {
+        let forces = ContactForces::of(point, at, bounds).filter(|own| {
+            let network = point(at).map(|own| own.network);
+            network.is_ok_and(|network| match output.of {
+                Of::Force => network.connections()[own.element()].name == output.name(),
+                Of::Acceleration => network
+                    .nodes()
+                    .nth(own.impactor())
+                    .is_some_and(|own| own.1.name == output.name()),
+                _ => false,
+            })
+        });
+        let kept = Mutex::default();
+        let own = Self { poser, output, forces, is_fast: AtomicBool::new(true), kept };
+        own.agrees(at);
+        own
+    }
+
+    /// Whether forces of one form are those of a full run where the numbers have these values; from where they are not
+    /// full runs alone are solved.
+    pub(super) fn agrees(&self, values: &[f64]) -> bool {
+        let Some(fast) = self.fast(values) else { return true };
+        let is_alike = self.full(values).is_ok_and(|full| {
+            let (end, peak) = (full.0.end - full.0.zero, full.peak().1.abs());
+            (0..=LOOKS).all(|at| {
+                let time = end * at as f64 / LOOKS as f64;
+                (fast.value(time) - full.value(time)).abs() <= ALIKE * peak
+            })
+        });
+        if !is_alike {
+            self.is_fast.store(false, Ordering::Relaxed);
+        }
+        is_alike
+    }
+
+    fn fast(&self, values: &[f64]) -> Option<Pushed> {
+        let forces = self.forces.as_ref().filter(|_| self.is_fast.load(Ordering::Relaxed))?;
+        let force = forces.at(values)?;
+        let unit = if self.output.of == Of::Acceleration { force.mass } else { 1.0 };
+        Some(Pushed { force, unit })
+    }
+
+    /// The curve of the test where the numbers have these values.
+    pub(super) fn curve(&self, values: &[f64]) -> Solved<Box<dyn Curve>> {
+        match self.fast(values) {
+            Some(own) => Ok(Box::new(own)),
+            None => Ok(Box::new(self.full(values)?)),
+        }
+    }
+
+    fn full(&self, values: &[f64]) -> Solved<Shared> {
+        let is_it = |own: &&Kept| {
+            own.0.iter().zip(values).all(|(one, other)| one.to_bits() == other.to_bits())
+        };
+        let kept = || self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = kept().iter().find(is_it) {
+            return Ok(Shared(Arc::clone(&own.1)));
+        }
+        let ScenePoint { network, mut settings } = self.poser.point(values)?;
+        settings.measures.clear();
+        settings.limits.clear();
+        let run = network.solve_with(&settings).map_err(|error| error.to_string())?;
+        let own = Arc::new(Recorded::of(&run, self.output)?);
+        let mut kept = kept();
+        if kept.len() == KEPT {
+            kept.remove(0);
+        }
+        kept.push((values.to_vec(), Arc::clone(&own)));
+        Ok(Shared(own))
+    }
+}
+
+/// A contact force, or the acceleration that it gives.
+struct Pushed {
+    force: ContactForce,
+    unit: f64,
+}
+
+impl Curve for Pushed {
+    fn value(&self, time: f64) -> f64 {
+        self.force.value(time) / self.unit
+    }
+
+    fn peak(&self) -> (f64, f64) {
+        let (time, force) = self.force.peak();
+        (time, force / self.unit)
+    }
+}
+
+/// A signal of a run as it is recorded.
+struct Recorded {
+    signal: Signal,
+    /// What is there before the start.
+    rest: f64,
+    /// When in the run the time of the record is 0 \[s\].
+    zero: f64,
+    end: f64,
+}
+
+impl Recorded {
+    fn of(run: &RunReport, output: &Output) -> Result<Self, String> {
+        let lacks = || format!("`{}` is not kept in this run", output.key());
+        let (place, sign) = output.place(&run.assembly).ok_or_else(lacks)?;
+        if !run.trajectory.keeps(&run.assembly.system, place) {
+            return Err(lacks());
+        }
+        let signal = run.solution().signal(place).scaled(sign);
+        let rest = if is_untouched(&run.assembly, output) { 0.0 } else { signal.value(0.0) };
+        Ok(Self { signal, rest, zero: first_touch(run).unwrap_or(0.0), end: run.trajectory.t_end })
+    }
+}
+
+/// Whether nothing acts there before the start: where a mass that flies has yet to touch.
+fn is_untouched(assembly: &Assembly, output: &Output) -> bool {
+    match output.of {
+        Of::Force => assembly.connection(output.name()).is_some_and(|own| {
+            own.between.iter().any(|node| assembly.nodes[node.index()].is_impactor())
+        }),
+        Of::Acceleration => {
+            let own = assembly.nodes.iter().find(|own| own.name == output.name());
+            own.is_some_and(dashpot_network::NodeOutputs::is_impactor)
+        }
+        _ => false,
+    }
+}
+
+/// A record that is asked for again.
+struct Shared(Arc<Recorded>);
+
+impl Curve for Shared {
+    fn value(&self, time: f64) -> f64 {
+        let Recorded { signal, rest, zero, end } = &*self.0;
+        let time = time + zero;
+        if time < 0.0 { *rest } else { signal.value(time.min(*end)) }
+    }
+
+    fn peak(&self) -> (f64, f64) {
+        let Recorded { signal, zero, end, .. } = &*self.0;
+        let peak = signal.absolute_maximum((0.0, *end));
+        let sides = [signal.left_value(peak.time), signal.value(peak.time)];
+        let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
+        (peak.time - zero, peak.value.copysign(signed))
+    }
+}

@@ -1,0 +1,78 @@
+//! What there is to say about each test at a minimum.
+
+use super::{Curve, TestFit, residuals::Task};
+
+/// Fewer rows before the impact tell no noise.
+const FEWEST: usize = 8;
+/// What the filter smears of an impact to before it lies within so many periods of its design frequency.
+const SMEARED: f64 = 2.0;
+
+/// The value of the largest magnitude, with its sign.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most })
+}
+
+impl Task<'_> {
+    /// The largest magnitude of a curve as it would be recorded, by a clock that is so late.
+    fn peak_of(&self, test: usize, curve: &dyn Curve, shift: f64) -> f64 {
+        match self.tests()[test].filter {
+            Some(_) => largest(self.recorded(test, curve, shift).into_iter()),
+            None => curve.peak().1,
+        }
+    }
+
+    /// The largest magnitude of a test where the shared numbers have these values.
+    pub(super) fn peak_at(&self, test: usize, values: &[f64], shift: f64) -> Option<f64> {
+        let known = self.tests()[test].known.iter().map(|own| own.mean);
+        let values: Vec<f64> = values.iter().copied().chain(known).collect();
+        Some(self.peak_of(test, self.solved(test, &values).ok()?.as_ref(), shift))
+    }
+
+    /// The samples of a test where the shared numbers have these values, and what it has to itself is as at a minimum.
+    pub(super) fn samples(
+        &self,
+        test: usize,
+        values: &[f64],
+        unknowns: &[f64],
+    ) -> Option<Vec<Option<f64>>> {
+        let own = self.own(test, unknowns);
+        let known = self.values_of(test, unknowns).split_off(self.numbers().len());
+        let curve = self.solved(test, &[values, &known].concat()).ok()?;
+        let samples = self.recorded(test, curve.as_ref(), own.shift).into_iter();
+        Some(samples.map(|value| Some(own.gain * value)).collect())
+    }
+
+    /// What there is to say about each test.
+    pub(super) fn told(&self, unknowns: &[f64]) -> Vec<TestFit> {
+        let left = self.left(unknowns);
+        let taken = self.unknowns() as f64 / left.len() as f64;
+        let told = |(at, rows): (usize, std::ops::Range<usize>)| {
+            let own = self.own(at, unknowns);
+            let curve = self.curve(at, unknowns).ok()?;
+            let test = &self.tests()[at];
+            let residual = self.differences(at, curve.as_ref(), own);
+            let square: f64 = residual.iter().map(|own| own * own).sum();
+            let (left, unit) = (&left[rows], self.unit(at));
+            let mean_square =
+                |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
+            let smeared = test.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency());
+            let resting = &left[..self.rows_before(at, own.shift - smeared)];
+            let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
+            Some(TestFit {
+                shift: own.shift,
+                offset: own.offset,
+                gain: own.gain,
+                known: self.values_of(at, unknowns)[self.numbers().len()..].to_vec(),
+                rms: (square / residual.len() as f64).sqrt(),
+                noise: unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt(),
+                noise_at_rest: at_rest,
+                measured_peak: largest(test.rows.iter().map(|row| row.1 - own.offset)),
+                model_peak: own.gain * self.peak_of(at, curve.as_ref(), own.shift),
+                residual,
+                band: Vec::new(),
+                held_out: None,
+            })
+        };
+        self.parts().enumerate().filter_map(told).collect()
+    }
+}
