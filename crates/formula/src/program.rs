@@ -90,10 +90,13 @@ impl Program {
 
     /// The values of the expressions at these variables, into `values`, in their order.
     pub fn evaluate(&self, variables: &[f64], values: &mut [f64]) {
-        match self.numbers.len() + self.steps.len() {
-            0..=FEW => self.run(variables, &mut [0.0; FEW], values),
-            0..=ON_STACK => self.run(variables, &mut [0.0; ON_STACK], values),
-            all => self.run(variables, &mut vec![0.0; all], values),
+        let all = self.numbers.len() + self.steps.len();
+        if all <= FEW {
+            self.run(variables, &mut [0.0; FEW], values);
+        } else if all <= ON_STACK {
+            self.run(variables, &mut [0.0; ON_STACK], values);
+        } else {
+            self.run(variables, &mut vec![0.0; all], values);
         }
     }
 
