@@ -231,7 +231,7 @@ mod tests {
             for (pulse, word) in pulses {
                 let motion = pulse.integral().and_then(|own| own.integral()).unwrap();
                 let (of_motion, speed) = Recognized::as_acceleration(&motion).unwrap();
-                assert_eq!(speed, 0.0);
+                assert!(speed.abs() < 1e-300, "{speed}");
                 let found = [Recognized::of(&pulse).unwrap(), of_motion];
                 for own in found {
                     assert_eq!(own.word, word);
@@ -250,7 +250,7 @@ mod tests {
         let points = vec![(0.0, 0.0), (0.01, 900.0), (0.02, -100.0), (0.03, 0.0)];
         let pulse = Table::of(points).waveform().unwrap();
         let (found, speed) = Recognized::as_acceleration(&pulse.motion(-4.5).unwrap()).unwrap();
-        assert_eq!((found.word, speed), (Table::KIND, -4.5));
+        assert!(found.word == Table::KIND && (speed + 4.5).abs() < 1e-12, "{found:?} {speed}");
         assert!(is_same(&found.with(&found.values).unwrap(), &pulse));
     }
 

@@ -48,7 +48,7 @@ impl KindReader<'_> {
     }
 
     /// The rows of a record behind what becomes of it.
-    pub(super) fn treated<'d>(self, found: FileRows<'d>, own: Treatment) -> Option<FileRows<'d>> {
+    pub(super) fn treated(self, found: FileRows<'_>, own: Treatment) -> Option<FileRows<'_>> {
         let Treatment { shift, settings } = own;
         let FileRows { file, mut rows, place } = found;
         if settings != Settings::default() {

@@ -108,7 +108,7 @@ impl Rating {
     /// [`Unrated`].
     pub fn of(test: &Channel, model: &Channel, window: (f64, f64)) -> Result<Self, Unrated> {
         let count = ((window.1 - window.0) / STEP * (1.0 + 1e-12)).floor();
-        if !(count >= (FEWEST - 1) as f64) {
+        if count < (FEWEST - 1) as f64 {
             return Err(Unrated::TooShort);
         }
         if count >= MOST as f64 {
