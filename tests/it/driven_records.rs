@@ -210,3 +210,22 @@ fn a_helmet_drop_drives_a_headform() {
     let (signed, _) = signal(&path, &["--cfc", "180"], "hic15");
     assert!((signed - 961.5).abs() < 0.5 && magnitude > 1.3 * signed, "{magnitude}, {signed}");
 }
+
+#[test]
+fn what_a_record_holds_before_the_run_is_warned_of() {
+    let folder = TempDir::new().unwrap();
+    write(&folder, "drop.csv", &half_sine(0.0, 0.0));
+    let said = |name: &str, file: &str| {
+        let output = run(&["check", &headform(&folder, name, file)]);
+        err(&output).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // The pulse, from 10 to 15 ms, has its peak of 1961.33 m/s² at −0.5 ms then, and begins the run at 0.
+    let early = said("early.toml", "\"drop.csv\", shift = \"-13 ms\"");
+    assert!(
+        early.contains("begins 13 ms before the run, and up to 1960 m/s^2 take no part"),
+        "{early}"
+    );
+    assert!(early.contains("shift = \"13 ms\""), "{early}");
+    let late = said("late.toml", "\"drop.csv\", shift = \"-9 ms\"");
+    assert!(!late.contains("before the run"), "{late}");
+}

@@ -7,6 +7,7 @@ use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind
 use super::{
     file_units::{misread_unit, unit},
     parameters::KindReader,
+    records::Treatment,
 };
 use crate::{
     curves::{CurveChange, Difference, Fitted, Row, fit, outward, split, turning_row, unloading},
@@ -44,7 +45,8 @@ impl<'d> KindReader<'d> {
     /// The rows of the file that `item` names, by its name alone or in a table of its own.
     pub(super) fn rows_of(self, item: &Item, parameter: &Parameter) -> Option<FileRows<'d>> {
         if item.text().is_some() {
-            return self.rows(item, &Wishes::default(), parameter);
+            let rows = self.rows(item, &Wishes::default(), parameter)?;
+            return self.treated(rows, Treatment::none(parameter));
         }
         let owner = format!("`{}`", parameter.name);
         let table = Table::new(item, owner, item.place, self.quantities.faults)?;
