@@ -34,6 +34,7 @@
 
 pub use dashpot_analysis as analysis;
 pub use dashpot_dae as dae;
+pub use dashpot_design as design;
 pub use dashpot_fit as fit;
 pub use dashpot_network as network;
 pub use dashpot_numerics as numerics;

@@ -60,6 +60,18 @@ pub(crate) enum CliError {
     /// Limits are to be enforced, and there is none.
     #[error("`--enforce` has no limit to enforce")]
     NoLimits,
+    /// What is made least is held by nothing.
+    #[error("nothing holds `{name}`: there is no limit that a design has to keep")]
+    NothingToKeep {
+        /// What is made least.
+        name: String,
+    },
+    /// No design can be solved.
+    #[error("{reason}")]
+    NoDesign {
+        /// Why the first of them cannot.
+        reason: String,
+    },
     /// A time is asked for that the run does not reach \[s\].
     #[error(
         "`--at {}` lies beyond the end of the run, {}",
@@ -266,7 +278,7 @@ impl CliError {
             Self::BeyondEnd { .. } => {
                 Some("give a time within it, or a longer `duration` in [run]".to_owned())
             }
-            Self::NoLimits => Some(
+            Self::NothingToKeep { .. } | Self::NoLimits => Some(
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
                     .to_owned(),
             ),

@@ -3,13 +3,14 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 16] = [
+const CHAPTERS: [(&str, usize, usize); 17] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
     ("gradients", 1, 0),
     ("fit", 4, 0),
+    ("design", 4, 0),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod convert;
 mod cost;
+mod design;
 mod explain;
 mod fit;
 mod groups;
@@ -73,6 +74,8 @@ pub(crate) enum Command {
     Signal(signal::SignalArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
+    /// Searches the best numbers of a scene within its limits, and tells what no pad can beat.
+    Design(design::DesignArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
     Fit(fit::FitArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
@@ -113,6 +116,7 @@ impl Command {
             Self::Cost(arguments) => cost::cost(arguments, terminal),
             Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
+            Self::Design(arguments) => design::design(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
             Self::Thesis(arguments) => thesis::thesis(arguments, terminal),

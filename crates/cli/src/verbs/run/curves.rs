@@ -4,7 +4,7 @@ use dashpot_analysis::{RunReport, table_at};
 use dashpot_plot::Table;
 use serde::Serialize;
 
-use super::{Answer, deviations::Told, files::sample_times};
+use super::{Answer, deviations::Told, files::sample_times, floor};
 use crate::{
     error::CliError,
     numbers::{Unit, constant},
@@ -30,6 +30,9 @@ pub(super) struct Run<'r> {
     /// How far it is from each measured curve.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     measured: Vec<Told<'r>>,
+    /// What no pad can beat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    floor: Option<floor::Object>,
 }
 
 /// Outputs at some times, in SI units.
@@ -52,7 +55,8 @@ impl Answer {
         let curves = self.wishes.curves.then(|| outputs(run, sample_times(run, &self.scene.run)));
         let at = (!self.wishes.at.is_empty()).then(|| outputs(run, self.wishes.at.clone()));
         let measured = list(self.compared(run, run.solver.method).map(Told::from));
-        Run { report: run, curves, at, measured }
+        let floor = self.floor.as_ref().map(|own| own.object(run));
+        Run { report: run, curves, at, measured, floor }
     }
 
     /// The values at the times that were named, from the best run.

@@ -286,11 +286,12 @@ impl Designs {
         }
     }
 
-    /// What was drawn for each design.
-    fn scatter(&self) -> Vec<Line> {
+    /// What was drawn for each design, and what no pad can beat there.
+    fn scatter_and_floors(&self) -> Vec<Line> {
         let of = |(own, run): (&Design, &RunReport)| {
             let named = |line: Line| Line { text: format!("{}: {}", own.name, line.text), ..line };
-            list(scatter::lines(run).into_iter().map(named))
+            let floor = own.answer.floor.iter().flat_map(|floor| floor.lines(run));
+            list(scatter::lines(run).into_iter().chain(floor).map(named))
         };
         list(self.best().flat_map(of))
     }
@@ -364,7 +365,7 @@ impl Study for Designs {
         text.title(&format!("{} designs side by side", self.designs.len()));
         self.titles().iter().for_each(|own| text.faint(own));
         text.blank();
-        for line in self.verdicts().into_iter().chain(self.scatter()) {
+        for line in self.verdicts().into_iter().chain(self.scatter_and_floors()) {
             text.labelled(line.label, LABELS, &line.text);
         }
         let limits = self.limits();
@@ -448,7 +449,7 @@ impl Study for Designs {
                 .chain(self.warned_and_failed())
                 .collect(),
             verdict: {
-                let lines = self.verdicts().into_iter().chain(self.scatter());
+                let lines = self.verdicts().into_iter().chain(self.scatter_and_floors());
                 let lines = lines.map(|line| format!("{}: {}", line.label, line.text));
                 list(self.titles().into_iter().chain(lines))
             },

@@ -15,7 +15,7 @@ use crate::numbers::{self, MOST_DIGITS, Unit, bound, counted, percent_signed};
 const DIGITS: usize = 4;
 
 /// One line for each limit.
-pub(super) fn lines(run: &RunReport) -> Vec<Line> {
+pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
     let line = |judged: &Judged<'_>| {
         let label = match judged.judgement {
             Judgement::Pass => "PASS",

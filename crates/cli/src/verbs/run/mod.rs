@@ -8,6 +8,7 @@ mod designs;
 mod deviations;
 mod energy;
 mod files;
+mod floor;
 mod limits;
 mod measures;
 mod object;
@@ -47,8 +48,10 @@ use self::{
     verdict::verdict,
 };
 pub(crate) use self::{
-    limits::{level, stated},
+    floor::Told as FloorTold,
+    limits::{level, lines as limit_lines, stated},
     measures::{measure_text, unit_of_kind},
+    verdict::Line,
 };
 use crate::{
     args::{
@@ -83,6 +86,7 @@ const LABELS: usize = 15;
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
+    dashpot run pad.toml --floor                     what no pad can beat\n\
     dashpot run pad.toml --sample 2000               numbers with scatter: more designs\n  \
     dashpot run pad.toml --measured drop.csv         beside a measured curve\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
@@ -114,6 +118,10 @@ pub(crate) struct RunArguments {
     /// Exits with 4 unless every limit is kept, however the errors lie.
     #[arg(long)]
     enforce: bool,
+    /// Tells what no pad can beat where the body is stopped within the thickness, the stop, or a limit on the
+    /// deflection: the least peak, HIC and severity index, and how far the scene is from them.
+    #[arg(long)]
+    floor: bool,
     /// Methods in place of the scene's, side by side; `dashpot list methods` tells of each.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = MethodNames(method_names()))]
     method: Vec<String>,
@@ -169,6 +177,8 @@ struct Answer {
     pub(super) measured: Vec<MeasuredCurve>,
     /// Of each run how far it is from each of them.
     pub(super) beside: Vec<Vec<Beside>>,
+    /// What no pad can beat, where that is asked for.
+    pub(super) floor: Option<floor::Told>,
     /// Whether curves are plotted.
     plot: When,
     /// What is shown and written besides.
@@ -370,7 +380,9 @@ fn solve_all(
     }
     let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
     let wishes = Wishes::of(arguments);
-    Ok(Answer { scene, changes, asked, runs, failed, measured, beside, plot, wishes })
+    let floor =
+        arguments.floor.then(|| floor::Told::of(&scene.network, scene.run.duration, &scene.limits));
+    Ok(Answer { scene, changes, asked, runs, failed, measured, beside, floor, plot, wishes })
 }
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {

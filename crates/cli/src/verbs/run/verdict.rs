@@ -43,11 +43,11 @@ const CUT: &str = "; the run ends in contact, so that figures are those so far";
 
 /// One line of the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Line {
+pub(crate) struct Line {
     /// What it is about.
-    pub(super) label: &'static str,
+    pub(crate) label: &'static str,
     /// What it says.
-    pub(super) text: String,
+    pub(crate) text: String,
 }
 
 /// What a person wants to know first, from the most accurate run.
@@ -88,7 +88,9 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("next digit", next_digit(answer, run)),
     ];
     let lines = lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? }));
-    limits::lines(run).into_iter().chain(scatter::lines(run)).chain(lines).collect()
+    let floor = answer.floor.as_ref().map_or_else(Vec::new, |own| own.lines(run));
+    let first = limits::lines(run).into_iter().chain(scatter::lines(run));
+    first.chain(lines).chain(floor).collect()
 }
 
 /// What words are found for.

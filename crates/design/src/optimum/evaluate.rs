@@ -1,0 +1,169 @@
+//! What designs come to: their measures, and how far pads and laws are pressed in parts of what is known of them.
+
+use dashpot_analysis::{
+    Bound, Limit, RunReport, Solve, SolveSettings,
+    sweep::{PoseAt, ScenePoint, columns},
+};
+
+use super::{Aim, DesignError};
+
+/// Tolerance of stepping methods, whose results are differenced.
+const RTOL: f64 = 1e-9;
+
+/// What has to be kept by a design.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Requirement {
+    /// A limit of the scene or the command.
+    Limit(Limit),
+    /// A pad, or a law that ends, is not pressed further than is known of it; its name or path.
+    Known(String),
+}
+
+/// A requirement, and the test in which it has to be kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Required {
+    /// Which of the tests.
+    pub test: usize,
+    /// What it is.
+    pub what: Requirement,
+}
+
+/// The tests of a design.
+pub(super) struct Evaluator<'p> {
+    tests: &'p [&'p PoseAt<'p>],
+    aim: &'p Aim,
+    pub(super) required: Vec<Required>,
+}
+
+/// What one design comes to.
+#[derive(Debug, Clone)]
+pub(super) struct Evaluated {
+    /// The aim in each test, where it is a measure; of a number that number.
+    pub(super) aims: Vec<f64>,
+    /// The values of what is required: a measure in its unit, or a part of what is known.
+    pub(super) values: Vec<f64>,
+}
+
+impl Requirement {
+    /// How far a value exceeds it, in parts of the bound; negative where it is kept.
+    pub(super) fn excess(&self, value: f64, slack: f64) -> f64 {
+        match self {
+            Self::Known(_) => value - 1.0 + slack,
+            Self::Limit(limit) => {
+                let level = limit.bound.level();
+                let size = if level == 0.0 { 1.0 } else { level.abs() };
+                let over = match limit.bound {
+                    Bound::Max(most) => value - most,
+                    Bound::Min(least) => least - value,
+                };
+                over / size + slack
+            }
+        }
+    }
+}
+
+impl<'p> Evaluator<'p> {
+    /// Finds out at one design what is required.
+    pub(super) fn new(
+        tests: &'p [&'p PoseAt<'p>],
+        aim: &'p Aim,
+        at: &[f64],
+    ) -> Result<Self, DesignError> {
+        let mut own = Self { tests, aim, required: Vec::new() };
+        for test in 0..tests.len() {
+            let point = own.point(test, at).map_err(DesignError::NotPosed)?;
+            let limits = point.settings.limits.clone();
+            let run = point.network.solve_with(&point.settings)?;
+            let of_limits = limits.into_iter().map(Requirement::Limit);
+            let known = reaches(&run).into_iter().map(|own| Requirement::Known(own.0));
+            own.required.extend(of_limits.chain(known).map(|what| Required { test, what }));
+        }
+        Ok(own)
+    }
+
+    /// The scene of a test as it is differenced: measures that are wanted, without estimates of errors.
+    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, String> {
+        let mut point = (self.tests[test])(values)?;
+        if let Aim::Measure(key) = self.aim {
+            let keys = [key.clone()];
+            let found = columns(&point, &keys).map_err(|error| error.to_string())?;
+            point.settings.measures = found.1;
+        }
+        let settings = &mut point.settings;
+        settings.estimate = false;
+        settings.accuracy.neglect_below = None;
+        settings.rtol = settings.rtol.or(Some(RTOL));
+        Ok(point)
+    }
+
+    /// The run of a test with the errors that are asked for.
+    pub(super) fn run(&self, test: usize, values: &[f64]) -> Result<RunReport, DesignError> {
+        let mut point = (self.tests[test])(values).map_err(DesignError::NotPosed)?;
+        if let Aim::Measure(key) = self.aim {
+            point.settings.measures = columns(&point, &[key.clone()])?.1;
+        }
+        let settings = SolveSettings { estimate: true, ..point.settings };
+        Ok(point.network.solve_with(&settings)?)
+    }
+
+    /// What a design comes to; an error where a test cannot be solved.
+    pub(super) fn at(&self, values: &[f64]) -> Result<Evaluated, String> {
+        let mut own = Evaluated { aims: Vec::new(), values: Vec::new() };
+        for test in 0..self.tests.len() {
+            let point = self.point(test, values)?;
+            let run = point.network.solve_with(&point.settings);
+            let run = run.map_err(|error| error.to_string())?;
+            let value = |key: &str| run.measure(key).and_then(|own| own.value).unwrap_or(f64::NAN);
+            let reached = reaches(&run);
+            let of_test = self.required.iter().filter(|own| own.test == test);
+            own.values.extend(of_test.map(|own| match &own.what {
+                Requirement::Limit(limit) => value(&limit.key),
+                Requirement::Known(name) => {
+                    let found = reached.iter().find(|own| own.0 == *name);
+                    found.map_or(f64::NAN, |own| own.1)
+                }
+            }));
+            if let Aim::Measure(key) = self.aim {
+                own.aims.push(value(key));
+            }
+        }
+        match self.aim {
+            Aim::Number(at) => own.aims.push(values[*at]),
+            Aim::Given(value) => own.aims.push(*value),
+            Aim::Measure(_) => {}
+        }
+        Ok(own)
+    }
+
+    /// How many aims a design has.
+    pub(super) fn aims(&self) -> usize {
+        match self.aim {
+            Aim::Number(_) | Aim::Given(_) => 1,
+            Aim::Measure(_) => self.tests.len(),
+        }
+    }
+
+    pub(super) fn tests(&self) -> usize {
+        self.tests.len()
+    }
+}
+
+/// How far each pad, and each law that ends, is pressed in parts of its thickness or its last point.
+fn reaches(run: &RunReport) -> Vec<(String, f64)> {
+    let solution = run.solution();
+    let window = (0.0, run.trajectory.t_end);
+    let part =
+        |deformation: usize, whole: f64| solution.signal(deformation).maximum(window).value / whole;
+    let mut all = Vec::new();
+    for own in &run.assembly.connections {
+        let pad = own.thickness.map(|whole| (own.name.clone(), part(own.deformation, whole)));
+        let parts = run.assembly.primitives.get(own.primitives.clone()).unwrap_or(&[]);
+        let laws = parts.iter().filter_map(|own| {
+            let (_, last) = own.element.range()?;
+            (last > 0.0 && last.is_finite())
+                .then(|| (own.name.clone(), part(own.deformation, last)))
+        });
+        all.extend(pad.into_iter().chain(laws));
+    }
+    all
+}
