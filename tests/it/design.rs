@@ -31,6 +31,9 @@ fn scene(model: Model, key: &str) -> ScenePoint {
     ScenePoint { network, settings }
 }
 
+/// A pad of these numbers.
+type Pad = dyn Fn(&[f64]) -> Model + Sync;
+
 fn kelvin(values: &[f64]) -> Model {
     spring(values[0] * values[0]) | dashpot(2.0 * values[1] * values[0])
 }
@@ -59,7 +62,7 @@ fn from_one_start(model: &(dyn Fn(&[f64]) -> Model + Sync), key: &str, dice: &mu
 fn the_best_pads_of_two_parts_are_found_from_every_start() {
     let unit = SPEED * SPEED / TRAVEL;
     let hic = (SPEED / 9.80665).powf(2.5) * (3.0 * SPEED / (8.0 * TRAVEL)).powf(1.5);
-    let cases: [(&(dyn Fn(&[f64]) -> Model + Sync), _, _, _, _); 3] = [
+    let cases: [(&Pad, _, _, _, _); 3] = [
         // Best value in parts of a unit, and the ratio that has it.
         (&kelvin, "head.peak-acceleration", unit, 0.5206, 0.404),
         (&kelvin, "head.hic", hic, 1.125, 0.997),

@@ -71,7 +71,7 @@ fn pad(dice: &mut Dice) -> Model {
             2 => spring(size) | (spring(3.0 * size) + dashpot(size / 300.0)),
             3 => {
                 let cubic = 1e4 * size * dice.decades(2.0);
-                part(CubicSpring { stiffness: size, cubic }).into()
+                part(CubicSpring { stiffness: size, cubic })
             }
             4 => {
                 let foam = Foam {
@@ -82,11 +82,11 @@ fn pad(dice: &mut Dice) -> Model {
                     thickness: 0.04,
                     area: 0.005,
                 };
-                part(HystereticFoam { foam, set: 0.5, unloading_exponent: 2.0 }).into()
+                part(HystereticFoam { foam, set: 0.5, unloading_exponent: 2.0 })
             }
             _ => {
                 let exponent = 0.5 + dice.unit();
-                part(PowerDashpot { force: 0.02 * size, at: 1.0, exponent }).into()
+                part(PowerDashpot { force: 0.02 * size, at: 1.0, exponent })
             }
         }
     };

@@ -111,7 +111,10 @@ fn the_travel_is_the_least_of_thickness_stop_and_limit() {
     let least = |network: &Network, limits: &[Limit]| floors(network, 0.05, limits).unwrap().travel;
     assert_eq!(least(&network, &[]).of, TravelOf::Thickness);
     let limit = Limit::new("pad.peak-deformation", Bound::Max(0.012));
-    assert_eq!(least(&network, &[limit.clone()]), Travel { length: 0.012, of: TravelOf::Limit });
+    assert_eq!(
+        least(&network, std::slice::from_ref(&limit)),
+        Travel { length: 0.012, of: TravelOf::Limit }
+    );
     network.add_effect(Stop {
         element: "pad".to_owned(),
         at: Some(0.011),

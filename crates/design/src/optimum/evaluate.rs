@@ -85,8 +85,8 @@ impl<'p> Evaluator<'p> {
     fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, String> {
         let mut point = (self.tests[test])(values)?;
         if let Aim::Measure(key) = self.aim {
-            let keys = [key.clone()];
-            let found = columns(&point, &keys).map_err(|error| error.to_string())?;
+            let found =
+                columns(&point, std::slice::from_ref(key)).map_err(|error| error.to_string())?;
             point.settings.measures = found.1;
         }
         let settings = &mut point.settings;
@@ -100,7 +100,7 @@ impl<'p> Evaluator<'p> {
     pub(super) fn run(&self, test: usize, values: &[f64]) -> Result<RunReport, DesignError> {
         let mut point = (self.tests[test])(values).map_err(DesignError::NotPosed)?;
         if let Aim::Measure(key) = self.aim {
-            point.settings.measures = columns(&point, &[key.clone()])?.1;
+            point.settings.measures = columns(&point, std::slice::from_ref(key))?.1;
         }
         let settings = SolveSettings { estimate: true, ..point.settings };
         Ok(point.network.solve_with(&settings)?)

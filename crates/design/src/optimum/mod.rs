@@ -7,9 +7,11 @@
 //! gradients; where none of them keeps everything, the least excess is sought first. What is found is solved once more
 //! with its errors, and moved inwards where these reach across a limit.
 
+mod aims;
 mod evaluate;
 mod programme;
 mod search;
+mod spread;
 
 #[cfg(test)]
 mod tests;
@@ -21,10 +23,7 @@ use dashpot_analysis::{
 use thiserror::Error;
 
 pub use self::evaluate::{Required, Requirement};
-use self::{
-    evaluate::Evaluator,
-    search::{Place, Search},
-};
+use self::{evaluate::Evaluator, search::Search, spread::Place};
 
 /// A number that may vary.
 #[derive(Debug, Clone, Copy, PartialEq)]

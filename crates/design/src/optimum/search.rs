@@ -6,17 +6,16 @@ use std::{
 };
 
 use dashpot_analysis::Judgement;
-use dashpot_numerics::Stream;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    Design, DesignError, Effort, Kept, Requirement, Searched, Side, Slope, Variable,
+    Design, DesignError, Effort, Kept, Requirement, Searched, Side, Slope,
+    aims::{Direct, Epigraph},
     evaluate::{Evaluated, Evaluator},
-    programme::{Found, Programme, least},
+    programme::{Found, least},
+    spread::{Place, spread},
 };
 
-/// Steps of differences, in parts of a number or of the room between its bounds.
-const STEP: f64 = 1e-4;
 /// What a design may exceed a bound by, in parts of it, and still count as keeping it in a search.
 const ROOM: f64 = 1e-7;
 /// What is within this part of its bound, or of the room between bounds, is at it.
@@ -28,47 +27,10 @@ const DRAWN_IN: f64 = 1e-6;
 const ERRORS: f64 = 2.0;
 /// How often a design is moved inwards.
 const MOVES: usize = 3;
-/// The seed of designs that are spread.
-const SEED: u64 = 1;
-
-/// Where a number is between its bounds, from 0 to 1: in its logarithm where both are above zero.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    low: f64,
-    high: f64,
-    is_log: bool,
-}
-
-impl Place {
-    pub(super) fn of(own: &Variable) -> Self {
-        Self { low: own.low, high: own.high, is_log: own.low > 0.0 }
-    }
-
-    fn value(self, place: f64) -> f64 {
-        if self.is_log {
-            self.low * (self.high / self.low).powf(place)
-        } else {
-            self.low + (self.high - self.low) * place
-        }
-    }
-
-    fn place(self, value: f64) -> f64 {
-        if self.is_log {
-            (value / self.low).ln() / (self.high / self.low).ln()
-        } else {
-            (value - self.low) / (self.high - self.low)
-        }
-    }
-
-    /// How far a step of a difference is.
-    fn step(self) -> f64 {
-        if self.is_log { STEP / (self.high / self.low).ln() } else { STEP }
-    }
-}
 
 /// A search.
 pub(super) struct Search<'p> {
-    evaluator: Evaluator<'p>,
+    pub(super) evaluator: Evaluator<'p>,
     places: Vec<Place>,
     effort: Effort,
     solved: AtomicUsize,
@@ -88,7 +50,7 @@ impl<'p> Search<'p> {
     /// The best design.
     pub(super) fn found(self, begin: &[f64]) -> Result<Design, DesignError> {
         let none = vec![0.0; self.evaluator.required.len()];
-        let (mut spread, is_grid) = self.spread();
+        let (mut spread, is_grid) = spread(self.places.len(), self.effort.designs);
         let designs = spread.len();
         let places = self.places.iter().zip(begin);
         spread.push(places.map(|(place, value)| place.place(*value)).collect());
@@ -232,7 +194,7 @@ impl<'p> Search<'p> {
         if free.is_empty() || active.is_empty() {
             return vec![f64::NAN; active.len()];
         }
-        let unit = |at: usize| self.places[free[at]].high - self.places[free[at]].low;
+        let unit = |at: usize| self.places[free[at]].room();
         let matrix = DMatrix::from_fn(free.len(), active.len(), |row, column| {
             slopes[free[row]].values[active[column]] * unit(row)
         });
@@ -246,7 +208,7 @@ impl<'p> Search<'p> {
         unknowns.iter().zip(&self.places).map(|(own, place)| place.value(*own)).collect()
     }
 
-    fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
+    pub(super) fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
         self.solved.fetch_add(1, Ordering::Relaxed);
         self.evaluator.at(&self.values(unknowns)).ok()
     }
@@ -262,43 +224,13 @@ impl<'p> Search<'p> {
     }
 
     /// The largest excess of anything.
-    fn excess(&self, found: &Evaluated, slack: &[f64]) -> f64 {
+    pub(super) fn excess(&self, found: &Evaluated, slack: &[f64]) -> f64 {
         self.excesses(found, slack).into_iter().fold(f64::NEG_INFINITY, f64_max)
     }
 
-    fn excesses(&self, found: &Evaluated, slack: &[f64]) -> Vec<f64> {
+    pub(super) fn excesses(&self, found: &Evaluated, slack: &[f64]) -> Vec<f64> {
         let all = self.evaluator.required.iter().zip(&found.values).zip(slack);
         all.map(|((own, value), slack)| own.what.excess(*value, *slack)).collect()
-    }
-
-    /// Places of designs that are spread, and whether they are all of a grid.
-    fn spread(&self) -> (Vec<Vec<f64>>, bool) {
-        let (count, numbers) = (self.effort.designs, self.places.len());
-        if numbers == 0 || count == 0 {
-            return (Vec::new(), numbers == 0);
-        }
-        let each = (1..).take_while(|each: &usize| each.pow(numbers as u32) <= count).last();
-        if numbers <= 2 {
-            let each = each.unwrap_or(2).max(2);
-            let along = |at: usize| at as f64 / (each - 1) as f64;
-            let all = (0..each.pow(numbers as u32)).map(|at| {
-                let of = |number: usize| along(at / each.pow(number as u32) % each);
-                (0..numbers).map(of).collect()
-            });
-            return (all.collect(), true);
-        }
-        let mut stream = Stream::new(SEED);
-        let columns: Vec<Vec<f64>> = (0..numbers)
-            .map(|_| {
-                let mut order: Vec<usize> = (0..count).collect();
-                for at in (1..count).rev() {
-                    order.swap(at, (stream.bits() % (at as u64 + 1)) as usize);
-                }
-                order.iter().map(|own| (*own as f64 + stream.share()) / count as f64).collect()
-            })
-            .collect();
-        let row = |at: usize| columns.iter().map(|own| own[at]).collect();
-        ((0..count).map(row).collect(), false)
     }
 
     /// Solves designs by all threads, in their order; those that could be, and why the first of the others could not.
@@ -364,7 +296,7 @@ impl<'p> Search<'p> {
     }
 
     /// Derivatives of aims and excesses by places.
-    fn slopes(&self, unknowns: &[f64], slack: &[f64]) -> Vec<[Vec<f64>; 2]> {
+    pub(super) fn slopes(&self, unknowns: &[f64], slack: &[f64]) -> Vec<[Vec<f64>; 2]> {
         let one = |at: usize| {
             let [below, above] = self.beside(unknowns, at);
             let width = above.0 - below.0;
@@ -385,112 +317,10 @@ impl<'p> Search<'p> {
     }
 }
 
-fn f64_max(one: f64, other: f64) -> f64 {
+pub(super) fn f64_max(one: f64, other: f64) -> f64 {
     if one.is_nan() || other.is_nan() { f64::NAN } else { one.max(other) }
 }
 
-fn worst(all: &[f64]) -> f64 {
+pub(super) fn worst(all: &[f64]) -> f64 {
     all.iter().copied().fold(f64::NEG_INFINITY, f64_max)
-}
-
-/// One aim within what is required.
-struct Direct<'s, 'p> {
-    search: &'s Search<'p>,
-    slack: &'s [f64],
-    unit: f64,
-}
-
-impl Programme for Direct<'_, '_> {
-    fn values(&self, unknowns: &[f64]) -> Vec<f64> {
-        let count = self.slack.len();
-        let Some(found) = self.search.at(unknowns) else { return vec![f64::NAN; count + 1] };
-        let aim = found.aims[0] / self.unit;
-        [vec![aim], self.search.excesses(&found, self.slack)].concat()
-    }
-
-    fn slopes(&self, unknowns: &[f64]) -> Vec<Vec<f64>> {
-        let all = self.search.slopes(unknowns, self.slack);
-        let aim = all.iter().map(|own| own[0].first().map_or(f64::NAN, |own| own / self.unit));
-        let excess =
-            |at: usize| all.iter().map(move |own| own[1].get(at).copied().unwrap_or(f64::NAN));
-        let excesses = (0..self.slack.len()).map(|at| excess(at).collect());
-        [aim.collect()].into_iter().chain(excesses).collect()
-    }
-}
-
-/// The largest of several: a further unknown above all of them, which is made least. Of aims within what is required,
-/// or of what exceeds.
-struct Epigraph<'s, 'p> {
-    search: &'s Search<'p>,
-    slack: &'s [f64],
-    is_of_aims: bool,
-    /// The further unknown is in this unit …
-    unit: f64,
-    /// … above this.
-    floor: f64,
-}
-
-impl<'s, 'p> Epigraph<'s, 'p> {
-    fn new(
-        search: &'s Search<'p>,
-        slack: &'s [f64],
-        is_of_aims: bool,
-        start: &[f64],
-    ) -> Option<Self> {
-        let found = search.at(start)?;
-        let now = if is_of_aims { worst(&found.aims) } else { search.excess(&found, slack) };
-        // Everything kept is enough: below −1 nothing exceeds anything.
-        let (floor, unit) = if is_of_aims { (0.0, 2.0 * now.abs()) } else { (-0.1, now + 0.2) };
-        (unit > 0.0 && unit.is_finite()).then_some(Self { search, slack, is_of_aims, unit, floor })
-    }
-
-    /// How many values have to be below zero.
-    fn count(&self) -> usize {
-        self.slack.len() + if self.is_of_aims { self.search.evaluator.aims() } else { 0 }
-    }
-
-    fn soft(&self, found: &Evaluated) -> Vec<f64> {
-        if self.is_of_aims { found.aims.clone() } else { self.search.excesses(found, self.slack) }
-    }
-
-    fn hard(&self, found: &Evaluated) -> Vec<f64> {
-        if self.is_of_aims { self.search.excesses(found, self.slack) } else { Vec::new() }
-    }
-
-    fn least(&self, start: &[f64]) -> Option<Vec<f64>> {
-        let now = worst(&self.soft(&self.search.at(start)?));
-        let further = ((now - self.floor) / self.unit).clamp(0.0, 1.0);
-        let mut found = least(self, &[start, &[further]].concat())?.unknowns;
-        found.pop();
-        Some(found)
-    }
-}
-
-impl Programme for Epigraph<'_, '_> {
-    fn values(&self, unknowns: &[f64]) -> Vec<f64> {
-        let (further, own) = (unknowns[unknowns.len() - 1], &unknowns[..unknowns.len() - 1]);
-        let Some(found) = self.search.at(own) else { return vec![f64::NAN; 1 + self.count()] };
-        let level = self.floor + self.unit * further;
-        let soft = self.soft(&found).into_iter().map(|own| (own - level) / self.unit);
-        [further].into_iter().chain(soft).chain(self.hard(&found)).collect()
-    }
-
-    fn slopes(&self, unknowns: &[f64]) -> Vec<Vec<f64>> {
-        let own = &unknowns[..unknowns.len() - 1];
-        let all = self.search.slopes(own, self.slack);
-        let mut aim = vec![0.0; own.len()];
-        aim.push(1.0);
-        let which = usize::from(!self.is_of_aims);
-        let softs = all.first().map_or(0, |own| own[which].len());
-        let soft = (0..softs).map(|at| {
-            let each = all.iter().map(|own| own[which][at] / self.unit);
-            each.chain([-1.0]).collect::<Vec<f64>>()
-        });
-        let hards = if self.is_of_aims { self.slack.len() } else { 0 };
-        let hard = (0..hards).map(|at| {
-            let each = all.iter().map(|own| own[1].get(at).copied().unwrap_or(f64::NAN));
-            each.chain([0.0]).collect::<Vec<f64>>()
-        });
-        [aim].into_iter().chain(soft).chain(hard).collect()
-    }
 }

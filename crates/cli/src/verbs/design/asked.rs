@@ -199,7 +199,7 @@ pub(super) struct Numbers<'a> {
     pub(super) method: Option<&'a str>,
 }
 
-impl<'a> Numbers<'a> {
+impl Numbers<'_> {
     /// The text of the scene with a choice and these numbers in SI units.
     pub(super) fn text(&self, choice: &Choice, values: &[f64]) -> String {
         let numbers = self.asked.numbers.iter().zip(values);

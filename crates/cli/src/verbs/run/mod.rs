@@ -94,6 +94,7 @@ const LABELS: usize = 15;
     dashpot run pad.toml --at \"5 ms, 20 ms\"         every output at these times\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub(crate) struct RunArguments {
     /// Files of scenes, `-` for standard input, or built-in scenes (reference,
     /// reference-stiff, reference-gravity); several stand side by side as designs [default: reference].
