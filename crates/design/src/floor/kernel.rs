@@ -39,12 +39,12 @@ impl Kernel {
         }
     }
 
-    /// The largest `∫ |G(t − s)| dJ(s)` from 0 to `t` of all `J` that rise no further than `most(s)`: by parts
-    /// `|G(0)| J(t) + ∫ J(s) d|G|(t − s)`, of which only what adds is counted.
+    /// The largest `∫ G(t − s) dJ(s)` from 0 to `t` of all `J` that go no further than `most(s)` to either side: by
+    /// parts `|G(0)| J(t) + ∫ |G′(t − s)| J(s) ds`.
     pub(super) fn paced(&self, time: f64, most: &dyn Fn(f64) -> f64) -> f64 {
         let slope = |lag: f64| match self {
             Self::Fixed { mass } => mass.recip(),
-            Self::Moving(own) => (own.slope(lag) * own.value(lag).signum()).max(0.0),
+            Self::Moving(own) => own.slope(lag).abs(),
         };
         let first = match self {
             Self::Fixed { .. } => 0.0,
