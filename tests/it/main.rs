@@ -32,6 +32,7 @@ mod error_bars;
 mod examples;
 mod files;
 mod fit;
+mod fit_mixed;
 mod formulas;
 mod gallery;
 mod gradients;

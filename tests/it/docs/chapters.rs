@@ -9,7 +9,7 @@ const CHAPTERS: [(&str, usize, usize); 16] = [
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
     ("gradients", 1, 0),
-    ("fit", 4, 0),
+    ("fit", 6, 0),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
