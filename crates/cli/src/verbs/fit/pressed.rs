@@ -75,7 +75,10 @@ mod tests {
         // Twice there and back, with noise at the ends.
         let own = times(&[0.0, 10.0, 9.95, 10.0, 5.0, 0.0, 0.0, 5.0, 10.0], 10.0);
         let known: Vec<f64> = own.iter().flatten().copied().collect();
-        assert_eq!(known, [0.0, 1.0, 1.5, 2.0, 2.5, 3.0]);
+        // What lies behind the first of two tops is on the way back.
+        let right = [0.0, 1.0, 1.005, 1.5, 2.0, 2.5, 3.0];
+        let is_near = |own: (&f64, &f64)| (own.0 - own.1).abs() < 1e-12;
+        assert!(known.len() == right.len() && known.iter().zip(&right).all(is_near), "{known:?}");
         assert!(times(&[], 1.0).is_empty());
     }
 }
