@@ -34,6 +34,7 @@ mod examples;
 mod files;
 mod fit;
 mod floors;
+mod fit_mixed;
 mod formulas;
 mod gallery;
 mod gradients;

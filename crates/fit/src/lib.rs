@@ -3,6 +3,7 @@
 //! [`linear`] finds the spectrum of a linear material, [`network`] any numbers of any model; [`structure`] knows which
 //! of them no test can tell apart. It reads no files, solves no scene and prints nothing.
 
+pub mod among;
 pub mod linear;
 pub mod network;
 pub mod nnls;

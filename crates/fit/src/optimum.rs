@@ -151,8 +151,9 @@ impl Jacobian for Bounded<'_> {
     type Jacobian = DenseMatrix;
 
     fn jacobian(&self, unknowns: &Vec<f64>) -> Result<DenseMatrix, Infallible> {
-        let own = self.problem.jacobian(unknowns);
+        // What was solved last is asked for first.
         let (left, slopes) = self.drawn_in(unknowns);
+        let own = self.problem.jacobian(unknowns);
         let count = unknowns.len();
         let both =
             DMatrix::from_fn(left.len().max(count + 1), count + 1, |row, column| {

@@ -32,7 +32,7 @@ use crate::{
 };
 
 /// The sections of a scene and of a file of models.
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "title",
     "values",
     "models",
@@ -45,6 +45,7 @@ const SECTIONS: [&str; 12] = [
     "limits",
     "accuracy",
     "run",
+    "fit",
 ];
 
 /// Everything that a scene says, checked.

@@ -9,7 +9,7 @@ const CHAPTERS: [(&str, usize, usize); 17] = [
     ("thesis", 1, 4),
     ("sweeps", 6, 3),
     ("gradients", 1, 0),
-    ("fit", 4, 0),
+    ("fit", 6, 0),
     ("design", 4, 0),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),

@@ -99,6 +99,16 @@ impl History {
         Self { corners: vec![corner(0.0, 0.0), corner(turn, height), corner(end, 0.0)] }
     }
 
+    /// Straight from point to point, `(time, value)` with rising times from 0 on; a first value that is not zero is a
+    /// jump to it.
+    pub(super) fn through(points: impl Iterator<Item = (f64, f64)>) -> Self {
+        let corner = |(at, (time, value)): (usize, (f64, f64))| {
+            let before = if at == 0 { 0.0 } else { value };
+            Corner { time, before, after: value }
+        };
+        Self { corners: points.enumerate().map(corner).collect() }
+    }
+
     fn edge(time: f64, rise: f64, from: f64, to: f64) -> Vec<Corner> {
         if rise > 0.0 {
             let foot = Corner { time, before: from, after: from };

@@ -19,6 +19,7 @@
 //! # Ok::<(), dashpot_analysis::rheometer::RheometerError>(())
 //! ```
 
+mod answer;
 mod cycle;
 mod history;
 mod note;
@@ -36,6 +37,7 @@ mod tests;
 use dashpot_dae::methods;
 use dashpot_network::parameters::{Described, Kind, Registered, Value, registered};
 
+pub use answer::{Answer, Drive};
 pub use note::RheometerError;
 pub use note::{Note, Obstacle};
 pub use protocols::{

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{profile::Valley, residuals::Task};
+use super::{Profile, profile::Valley, residuals::Task};
 use crate::{
     optimum::{Optimum, Residuals},
     student::within_95,
@@ -62,12 +62,12 @@ pub(super) struct Certainty {
     pub(super) undetermined: DMatrix<f64>,
 }
 
-/// The intervals of all numbers, at a minimum of the robust sum beyond a scale; all of the profile likelihood if asked.
+/// The intervals of all numbers, at a minimum of the robust sum beyond a scale; of the profile likelihood where that is asked for.
 pub(super) fn certainty(
     task: &Task<'_>,
     best: &Optimum,
     scale: Option<f64>,
-    is_profiled: bool,
+    profile: Profile,
 ) -> Certainty {
     let left = task.left(&best.unknowns);
     let correlation = task.parts().map(|own| correlation(&left[own])).fold(1.0, f64::max);
@@ -89,9 +89,14 @@ pub(super) fn certainty(
         let column: Vec<f64> = covariance.column(at).iter().copied().collect();
         let is_curved = || valley.departs(at, &column).is_none_or(|by| by > CURVED);
         let factor = (quantile * own).exp();
-        let (ends, source) = if is_known && !is_on_bound && !is_profiled && !is_curved() {
+        let is_enough = || match profile {
+            Profile::Never => true,
+            Profile::WhereNeeded => !is_curved(),
+            Profile::Always => false,
+        };
+        let (ends, source) = if is_known && !is_on_bound && is_enough() {
             ([Some(value / factor), Some(value * factor)], Source::Covariance)
-        } else if is_known || is_on_bound {
+        } else if profile != Profile::Never && (is_known || is_on_bound) {
             (valley.ends(at, own), Source::Profile)
         } else {
             ([None; 2], Source::Covariance)
@@ -157,7 +162,7 @@ fn directions(mut jacobian: DMatrix<f64>, count: usize) -> (DMatrix<f64>, DMatri
 
 /// How many rows that follow each other stand for one: one and twice the sum of autocorrelations up to the first that
 /// is not positive.
-fn correlation(left: &[f64]) -> f64 {
+pub(super) fn correlation(left: &[f64]) -> f64 {
     let mean = left.iter().sum::<f64>() / left.len().max(1) as f64;
     let square: f64 = left.iter().map(|own| (own - mean).powi(2)).sum();
     if square <= 0.0 {

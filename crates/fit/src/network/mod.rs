@@ -6,9 +6,11 @@
 
 mod bands;
 mod certainty;
+mod jump;
 mod problem;
 mod profile;
 mod record;
+mod repeats;
 mod residuals;
 mod starts;
 mod told;
@@ -18,10 +20,11 @@ use nalgebra::{DMatrix, DVector};
 pub use self::{
     bands::{Band, Read},
     certainty::{Interval, Source},
-    problem::{Curve, Known, Model, NetworkFault, NetworkSettings, Number, Test},
+    problem::{Curve, Kind, Known, Model, NetworkFault, NetworkSettings, Number, Profile, Test},
+    repeats::Scatter,
 };
 use self::{certainty::certainty, residuals::Task, starts::starts};
-use crate::optimum::{Optimum, least_squares};
+use crate::optimum::{Optimum, least_squares, sum};
 
 /// What was found of a test.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,24 +37,41 @@ pub struct TestFit {
     pub gain: f64,
     /// Its own numbers, in SI units.
     pub known: Vec<f64>,
-    /// Root of the mean square of what is left.
+    /// By how much the model jumps as it starts, where that alone puts the clock between two samples.
+    pub jump: Option<f64>,
+    /// Root of the mean square of what is left; of moduli in parts of them.
     pub rms: f64,
+    /// How many independent rows it has: behind a filter fewer than samples.
+    pub rows: usize,
+    /// Mean square of what is left of these, each as large as a sample before the filter.
+    pub mean_square: f64,
     /// Standard deviation of what is left of a sample before the filter; without a filter of the rows.
     pub noise: f64,
     /// The same before the impact alone; `None` where fewer than eight rows tell it.
     pub noise_at_rest: Option<f64>,
+    /// What it differs by from other records of the same test, where that was repeated.
+    pub scatter: Option<Scatter>,
     /// The largest magnitude that was measured, with its sign, less the offset.
     pub measured_peak: f64,
     /// The largest magnitude of the model behind the filter, with its sign.
     pub model_peak: f64,
-    /// What is left, row by row: the model less the rows.
+    /// What is left, row by row: the model less the rows, of moduli the logarithm of one over the other.
     pub residual: Vec<f64>,
     /// Half of the band that the uncertainty of the numbers gives to the model, row by row; `None` where it depends on
     /// what the tests do not determine.
     pub band: Vec<Option<f64>>,
-    /// The peak of the model in parts of the measured one, less 1, where the numbers are fitted to the other tests
-    /// alone; `None` where there is no other.
-    pub held_out: Option<f64>,
+    /// How far the model is from it where the numbers are fitted to the other tests alone; `None` where there is no
+    /// other.
+    pub held_out: Option<HeldOut>,
+}
+
+/// How far a model is from a test to which nothing but its clock and its zero was fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeldOut {
+    /// The peak of the model in parts of the measured one, less 1.
+    pub peak: f64,
+    /// Root of the mean square of what is left; of moduli in parts of them.
+    pub rms: f64,
 }
 
 /// Another minimum that is about as low.
@@ -111,6 +131,8 @@ const APART: f64 = 0.02;
 const FAR: f64 = 3.0;
 /// What is left of a test counts in no smaller parts of its peak than this.
 const LEAST: f64 = 1e-12;
+/// Rounds in which noise, and the samples between which curves jump, are found anew.
+const ROUNDS: usize = 3;
 /// The standard deviation in medians of the magnitude of normal deviates.
 const OF_MEDIAN: f64 = 1.4826;
 
@@ -121,7 +143,7 @@ const OF_MEDIAN: f64 = 1.4826;
 /// The rate of a decay, by a clock that is half a second late:
 ///
 /// ```
-/// use dashpot_fit::network::{Curve, NetworkSettings, Number, Test, fit};
+/// use dashpot_fit::network::{Curve, NetworkSettings, Number, Profile, Test, fit};
 ///
 /// struct Decay(f64);
 /// impl Curve for Decay {
@@ -136,7 +158,7 @@ const OF_MEDIAN: f64 = 1.4826;
 /// let test =
 ///     Test { rows: rows.collect(), is_shifted: true, is_offset: true, ..Test::default() };
 /// let number = Number { low: 0.1, high: 10.0, start: 5.0 };
-/// let settings = NetworkSettings { starts: 3, seed: 1, is_robust: true, is_profiled: false };
+/// let settings = NetworkSettings { starts: 3, seed: 1, is_robust: true, profile: Profile::WhereNeeded };
 /// let own = fit(&[number], &[test], settings, &|_, values| Ok(Box::new(Decay(values[0]))))?;
 /// assert!((own.numbers[0].value - 2.0).abs() < 1e-4 && (own.tests[0].shift - 0.5).abs() < 1e-4);
 /// # Ok::<(), dashpot_fit::network::NetworkFault>(())
@@ -198,11 +220,9 @@ fn search(
     let Some(first) = found.first().cloned() else {
         return Err(NetworkFault::Unsolved { reason });
     };
-    let units = units(&task, &first.unknowns, settings.is_robust);
-    task.count_in(&units);
     let scale = settings.is_robust.then_some(FAR);
-    let best = least_squares(&task, bounds, &first.unknowns, scale).unwrap_or(first);
-    let certainty = certainty(&task, &best, scale, settings.is_profiled);
+    let best = settled(&mut task, first, scale);
+    let certainty = certainty(&task, &best, scale, settings.profile);
     let left = task.left(&best.unknowns);
     let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
     let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / rows as f64);
@@ -241,7 +261,23 @@ fn search(
     Ok(fit)
 }
 
-/// What the rows of each test are counted in: their noise where it is known, else the standard deviation that what is
+/// The minimum of the robust sum beyond a scale, with the rows of each test counted in their noise.
+fn settled(task: &mut Task<'_>, first: Optimum, scale: Option<f64>) -> Optimum {
+    let mut best = first;
+    for _ in 0..ROUNDS {
+        let units = units(task, &best.unknowns, scale.is_some());
+        task.count_in(&units);
+        let has_jumps = task.place_jumps(&mut best.unknowns, scale);
+        let [low, high] = task.bounds();
+        best = least_squares(task, [&low, &high], &best.unknowns, scale).unwrap_or(best);
+        if !has_jumps {
+            break;
+        }
+    }
+    best
+}
+
+/// What the rows of each test are counted in: their noise where it is known, or repeats tell it, else the standard deviation that what is
 /// left of them at a minimum stands for.
 fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
     let left = task.left(unknowns);
@@ -250,6 +286,9 @@ fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
     let unit = |(test, (rows, own)): (usize, (std::ops::Range<usize>, &Test))| {
         if let Some(noise) = own.noise {
             return noise;
+        }
+        if let Some(scatter) = task.scatter(test, unknowns) {
+            return scatter.deviation;
         }
         let left = &left[rows];
         let square = left.iter().map(|own| own * own).sum::<f64>() / left.len() as f64;
@@ -263,27 +302,47 @@ fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
     parts.map(unit).collect()
 }
 
-/// How far the peak of the model is from that of a test to which nothing but its clock and its zero was fitted.
+/// How far the model is from a test where the numbers are fitted to all others.
 fn held_out(
     numbers: &[Number],
     tests: &[Test],
     test: usize,
     fit: &NetworkFit,
     model: &Model<'_>,
-) -> Option<f64> {
-    let others: Vec<usize> = (0..tests.len()).filter(|own| *own != test).collect();
+) -> Option<HeldOut> {
+    // A record of the same test tells of it what it tells itself.
+    let is_other = |own: &usize| {
+        let is_repeat =
+            tests[*own].repeated.is_some_and(|group| tests[test].repeated == Some(group));
+        *own != test && !is_repeat
+    };
+    let others: Vec<usize> = (0..tests.len()).filter(is_other).collect();
+    if others.is_empty() {
+        return None;
+    }
     let rest: Vec<Test> = others.iter().map(|own| tests[*own].clone()).collect();
-    let begun = numbers.iter().zip(&fit.numbers);
-    let begun: Vec<Number> =
-        begun.map(|(own, found)| Number { start: found.value, ..own.clone() }).collect();
+    let found = fit.numbers.iter().map(|own| own.value).collect::<Vec<_>>();
     let of_rest = |at: usize, values: &[f64]| model(others[at], values);
-    let rest_task = Task::new(&begun, &rest, &of_rest).ok()?;
-    let start = rest_task.begin(&begun.iter().map(|own| own.start).collect::<Vec<_>>()).ok()?;
-    let bounds = rest_task.bounds();
-    let found = least_squares(&rest_task, [&bounds[0], &bounds[1]], &start, None)?;
-    let values = rest_task.values(&found.unknowns);
-    let task = Task::new(numbers, tests, model).ok()?;
-    Some(task.peak_at(test, &values, fit.tests[test].shift)? / fit.tests[test].measured_peak - 1.0)
+    let task = Task::new(numbers, &rest, &of_rest).ok()?;
+    let unknowns = nearest(&task, &found)?;
+    // What was measured of it besides stands as it was measured.
+    let means = tests[test].known.iter().map(|own| own.mean);
+    let values: Vec<f64> = task.values(&unknowns).into_iter().chain(means).collect();
+    let alone = [Test { gain: None, known: Vec::new(), ..tests[test].clone() }];
+    let of_test = |_: usize, _: &[f64]| model(test, &values);
+    let task = Task::new(&[], &alone, &of_test).ok()?;
+    let told = task.told(&nearest(&task, &[])?).pop()?;
+    Some(HeldOut { peak: told.model_peak / told.measured_peak - 1.0, rms: told.rms })
+}
+
+/// The unknowns at the minimum that is found from these values of the numbers.
+fn nearest(task: &Task<'_>, values: &[f64]) -> Option<Vec<f64>> {
+    let start = task.begin(values).ok()?;
+    if start.is_empty() {
+        return Some(start);
+    }
+    let [low, high] = task.bounds();
+    Some(least_squares(task, [&low, &high], &start, None)?.unknowns)
 }
 
 #[cfg(test)]

@@ -36,11 +36,26 @@ pub struct Known {
     pub deviation: f64,
 }
 
+/// What the rows of a test are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kind {
+    /// A blow: nothing acts before it, and when it comes in the record is not known.
+    #[default]
+    Blow,
+    /// What answers a history that was measured beside it, by a clock that is off by two steps at most.
+    Answer,
+    /// Values above zero, moduli or compliances over time or frequency, which are compared in parts of them: what is
+    /// left of them are differences of logarithms.
+    Modulus,
+}
+
 /// A test: rows of time \[s\] and value in SI units, and what may be off with them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Test {
     /// The rows.
     pub rows: Vec<(f64, f64)>,
+    /// What they are.
+    pub kind: Kind,
     /// Whether its clock may be off.
     pub is_shifted: bool,
     /// Whether its zero may be off.
@@ -49,15 +64,17 @@ pub struct Test {
     pub gain: Option<f64>,
     /// The filter that it went through, and what stands beyond its ends.
     pub filter: Option<(Cfc, Padding)>,
-    /// Standard deviation of a sample before the filter, in SI units, where that is known.
+    /// Standard deviation of a sample before the filter, in SI units, where that is known; of moduli in parts of them.
     pub noise: Option<f64>,
+    /// Which test it is a record of, where that was repeated: any number that these records share.
+    pub repeated: Option<usize>,
     /// Numbers of this test alone.
     pub known: Vec<Known>,
 }
 
 impl Test {
     /// How many unknowns it has to itself.
-    pub(super) fn unknowns(&self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         let own = [self.is_shifted, self.is_offset, self.gain.is_some()];
         own.into_iter().filter(|own| *own).count() + self.known.len()
     }
@@ -66,6 +83,18 @@ impl Test {
     pub(super) fn priors(&self) -> usize {
         usize::from(self.gain.is_some()) + self.known.len()
     }
+}
+
+/// Which intervals are those of the profile likelihood, which takes many times as long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Profile {
+    /// None: what the covariance does not determine has none.
+    Never,
+    /// Those where the covariance falls short.
+    #[default]
+    WhereNeeded,
+    /// All.
+    Always,
 }
 
 /// What is asked of a fit.
@@ -77,8 +106,8 @@ pub struct NetworkSettings {
     pub seed: u64,
     /// Whether rows that are far off count by their magnitude, in place of its square.
     pub is_robust: bool,
-    /// Whether every interval is that of the profile likelihood; else those where the covariance falls short.
-    pub is_profiled: bool,
+    /// Which intervals are those of the profile likelihood.
+    pub profile: Profile,
 }
 
 /// Why nothing was fitted.

@@ -2,7 +2,7 @@
 
 use dashpot_signal::{Padding, Recorder, SettingsFault, Whitener};
 
-use super::Test;
+use super::{Kind, Test, jump::Jump};
 
 /// How a test was recorded, and what it is counted in.
 pub(super) struct Record {
@@ -17,6 +17,8 @@ pub(super) struct Record {
     pub(super) peak_time: f64,
     /// What its rows are counted in.
     pub(super) unit: f64,
+    /// Where its curve jumps, once that is known.
+    pub(super) jump: Option<Jump>,
 }
 
 impl Record {
@@ -42,7 +44,9 @@ impl Record {
             step: length / count as f64,
             peak: f64::abs(peak.1),
             peak_time: peak.0,
-            unit: f64::abs(peak.1),
+            // Moduli are counted in parts.
+            unit: if test.kind == Kind::Modulus { 1.0 } else { f64::abs(peak.1) },
+            jump: None,
         })
     }
 

@@ -3,22 +3,27 @@
 //! Unknowns are the logarithms of the numbers, then for each test its shift in parts of its length, its offset in
 //! parts of its peak, the logarithm of its gain, and how far its own numbers are from what was measured of them, the
 //! last two in standard deviations. What is left of a test is made independent where its filter has correlated it, and
-//! counted in a unit of the test; behind it stands how far what is known is off.
+//! counted in a unit of the test; behind it stands how far what is known is off, and behind that how far clocks are from
+//! the middle of the step in which their curves jump.
 
 use std::{iter::repeat_n, ops::Range};
 
 use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
 
-use super::{Curve, Model, Number, Test, record::Record};
+use super::{Curve, Kind, Model, Number, Test, jump::Jump, record::Record};
 use crate::optimum::Residuals;
 
 /// Step of differences in logarithms of numbers, and in standard deviations.
 const STEP: f64 = 1e-3;
 /// Step of differences in time, in parts of the length of a test.
 const TIME_STEP: f64 = 1e-5;
-/// A clock is not later by more lengths of its test, and a zero not off by more peaks.
+/// Part of a step of the recorder over which a curve goes on straight before its start.
+const NEXT: f64 = 0.125;
+/// A clock is not later by more lengths of its test, nor than that of its history by more steps, and a zero not off by
+/// more peaks.
 const LATEST: f64 = 2.0;
+const STEPS: f64 = 2.0;
 const HIGHEST: f64 = 1.0;
 /// What is known of a gain or a number is not left by more standard deviations.
 const FARTHEST: f64 = 8.0;
@@ -40,8 +45,8 @@ pub(super) struct Own {
 }
 
 /// Where these stand among the unknowns, and where the numbers of the test begin.
-struct Places {
-    shift: Option<usize>,
+pub(super) struct Places {
+    pub(super) shift: Option<usize>,
     offset: Option<usize>,
     gain: Option<usize>,
     known: usize,
@@ -63,7 +68,7 @@ impl<'t> Task<'t> {
 
     /// Rows of all tests, and of what is known of their own unknowns.
     pub(super) fn rows(&self) -> usize {
-        self.measured() + self.tests.iter().map(Test::priors).sum::<usize>()
+        self.measured() + self.tests.iter().map(Test::priors).sum::<usize>() + self.jumps().count()
     }
 
     /// Rows of all tests.
@@ -94,6 +99,21 @@ impl<'t> Task<'t> {
         self.records[test].unit
     }
 
+    pub(super) fn record(&self, test: usize) -> &Record {
+        &self.records[test]
+    }
+
+    /// Says where the curve of a test jumps among its samples.
+    pub(super) fn set_jump(&mut self, test: usize, jump: Option<Jump>) {
+        self.records[test].jump = jump;
+    }
+
+    /// The tests whose curves jump, each with the place of its shift.
+    pub(super) fn jumps(&self) -> impl Iterator<Item = (usize, usize, Jump)> + '_ {
+        let own = |test: usize| Some((test, self.places(test).shift?, self.records[test].jump?));
+        (0..self.tests.len()).filter_map(own)
+    }
+
     /// The shared numbers, in SI units.
     pub(super) fn values(&self, unknowns: &[f64]) -> Vec<f64> {
         let each = unknowns.iter().zip(self.numbers);
@@ -108,7 +128,7 @@ impl<'t> Task<'t> {
         self.values(unknowns).into_iter().chain(known).collect()
     }
 
-    fn places(&self, test: usize) -> Places {
+    pub(super) fn places(&self, test: usize) -> Places {
         let before = self.tests[..test].iter().map(Test::unknowns).sum::<usize>();
         let mut next = self.numbers.len() + before;
         let mut place = |is_there: bool| {
@@ -133,7 +153,7 @@ impl<'t> Task<'t> {
         }
     }
 
-    /// The unknowns where the numbers have these values and the peaks stand together.
+    /// The unknowns where the numbers have these values and the peaks, or the jumps, stand together.
     ///
     /// # Errors
     ///
@@ -146,7 +166,7 @@ impl<'t> Task<'t> {
             let own: Vec<f64> = values.iter().copied().chain(known).collect();
             let curve = (self.model)(at, &own)?;
             if test.is_shifted {
-                let late = (record.peak_time - curve.peak().0) / record.length;
+                let late = self.start_of_clock(at, curve.as_ref()) / record.length;
                 start.push(late.clamp(-1.0, 1.0));
             }
             start.resize(start.len() + usize::from(test.is_offset) + test.priors(), 0.0);
@@ -156,17 +176,26 @@ impl<'t> Task<'t> {
 
     /// Between which values the unknowns are searched.
     pub(super) fn bounds(&self) -> [Vec<f64>; 2] {
-        let own = self.tests.iter().flat_map(|test| {
-            let shift = test.is_shifted.then_some(LATEST);
+        let own = self.tests.iter().zip(&self.records).flat_map(|(test, record)| {
+            let latest = match test.kind {
+                Kind::Answer => STEPS * record.step / record.length,
+                _ => LATEST,
+            };
+            let shift = test.is_shifted.then_some(latest);
             let offset = test.is_offset.then_some(HIGHEST);
             shift.into_iter().chain(offset).chain(repeat_n(FARTHEST, test.priors()))
         });
         let own: Vec<f64> = own.collect();
-        let with = |sign: f64, of: fn(&Number) -> f64| {
+        let with = |sign: f64, of: fn(&Number) -> f64| -> Vec<f64> {
             let numbers = self.numbers.iter().map(|own| of(own).ln());
             numbers.chain(own.iter().map(|bound| sign * bound)).collect()
         };
-        [with(-1.0, |own| own.low), with(1.0, |own| own.high)]
+        let mut both = [with(-1.0, |own| own.low), with(1.0, |own| own.high)];
+        for (test, at, jump) in self.jumps() {
+            let ends = jump.ends.map(|end| end / self.records[test].length);
+            both.iter_mut().zip(ends).for_each(|(side, end)| side[at] = end);
+        }
+        both
     }
 
     /// What is left of all rows, each in the unit of its test, and how far what is known is off.
@@ -181,6 +210,10 @@ impl<'t> Task<'t> {
         for at in 0..self.tests.len() {
             all.extend(self.priors(at).map(|place| unknowns[place]));
         }
+        let off = |(test, at, jump): (usize, usize, Jump)| {
+            jump.off(unknowns[at] * self.records[test].length)
+        };
+        all.extend(self.jumps().map(off));
         all
     }
 
@@ -209,28 +242,44 @@ impl<'t> Task<'t> {
 
     /// The samples of a curve behind the filter, by a clock that is so late.
     pub(super) fn recorded(&self, test: usize, curve: &dyn Curve, shift: f64) -> Vec<f64> {
-        let Record { step, .. } = self.records[test];
+        let Record { recorder, step, jump, .. } = &self.records[test];
+        if !self.tests[test].is_shifted {
+            return recorder.record(|time| curve.value(time - shift));
+        }
         let (rest, start) = (curve.value(-step), curve.value(0.0));
-        // What jumps at the start rises within one step of the recorder: else no clock could be moved over a row.
-        let value = |time: f64| {
-            if time > -step && time < 0.0 {
-                start + (rest - start) * -time / step
-            } else {
-                curve.value(time)
-            }
+        let Some(jump) = jump else {
+            // What jumps rises within one step of the recorder: else no clock could be moved over a row.
+            let value = |time: f64| {
+                if time > -step && time < 0.0 {
+                    start + (rest - start) * -time / step
+                } else {
+                    curve.value(time)
+                }
+            };
+            return recorder.record(|time| value(time - shift));
         };
-        self.records[test].recorder.record(|time| value(time - shift))
+        let slope = (curve.value(NEXT * step) - start) / (NEXT * step);
+        let value = |(at, time): (usize, &f64)| match time - shift {
+            _ if at < jump.first => rest,
+            time if time < 0.0 => start + slope * time,
+            time => curve.value(time),
+        };
+        recorder.passed(recorder.times().iter().enumerate().map(value).collect())
     }
 
-    /// What is left of each sample, in SI units.
+    /// What is left of each sample, in SI units; of moduli the logarithms of model over row.
     pub(super) fn differences(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<f64> {
         let constant = &self.records[test].constant;
         let recorded = self.recorded(test, curve, own.shift).into_iter().zip(constant);
         let model = recorded.map(|(value, one)| own.gain * value + own.offset * one);
-        model.zip(&self.tests[test].rows).map(|(model, row)| model - row.1).collect()
+        let is_modulus = self.tests[test].kind == Kind::Modulus;
+        let left = |(model, row): (f64, &(f64, f64))| {
+            if is_modulus { (model / row.1).ln() } else { model - row.1 }
+        };
+        model.zip(&self.tests[test].rows).map(left).collect()
     }
 
-    fn left_of(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<f64> {
+    pub(super) fn left_of(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<f64> {
         let differences = self.differences(test, curve, own);
         self.counted(test, differences, 1.0)
     }
@@ -282,9 +331,12 @@ impl<'t> Task<'t> {
             columns.push((at, self.counted(test, record.constant.clone(), record.peak)));
         }
         if let Some(at) = places.gain {
-            let values = self.recorded(test, curve.as_ref(), own.shift);
             let deviation = self.tests[test].gain.unwrap_or(0.0);
-            columns.push((at, self.counted(test, values, own.gain * deviation)));
+            let (values, factor) = match self.tests[test].kind {
+                Kind::Modulus => (vec![1.0; record.rows()], 1.0),
+                _ => (self.recorded(test, curve.as_ref(), own.shift), own.gain),
+            };
+            columns.push((at, self.counted(test, values, factor * deviation)));
         }
         for at in (places.known..).take(self.tests[test].known.len()) {
             let beside = |step: f64| {
@@ -308,9 +360,6 @@ impl Residuals for Task<'_> {
 
     fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(self.rows(), unknowns.len());
-        for at in 0..self.numbers.len() {
-            jacobian.column_mut(at).copy_from_slice(&self.by_number(at, unknowns));
-        }
         let mut prior = self.measured();
         for (test, rows) in self.parts().enumerate() {
             let Some(columns) = self.by_own(test, unknowns) else {
@@ -324,6 +373,13 @@ impl Residuals for Task<'_> {
                 jacobian[(prior, at)] = 1.0;
                 prior += 1;
             }
+        }
+        for (test, at, jump) in self.jumps() {
+            jacobian[(prior, at)] = self.records[test].length / jump.deviation;
+            prior += 1;
+        }
+        for at in 0..self.numbers.len() {
+            jacobian.column_mut(at).copy_from_slice(&self.by_number(at, unknowns));
         }
         jacobian
     }

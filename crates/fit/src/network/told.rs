@@ -1,6 +1,6 @@
 //! What there is to say about each test at a minimum.
 
-use super::{Curve, TestFit, residuals::Task};
+use super::{Curve, Kind, TestFit, residuals::Task};
 
 /// Fewer rows before the impact tell no noise.
 const FEWEST: usize = 8;
@@ -15,17 +15,12 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 impl Task<'_> {
     /// The largest magnitude of a curve as it would be recorded, by a clock that is so late.
     fn peak_of(&self, test: usize, curve: &dyn Curve, shift: f64) -> f64 {
-        match self.tests()[test].filter {
-            Some(_) => largest(self.recorded(test, curve, shift).into_iter()),
-            None => curve.peak().1,
+        let own = &self.tests()[test];
+        if own.filter.is_none() && own.kind == Kind::Blow {
+            curve.peak().1
+        } else {
+            largest(self.recorded(test, curve, shift).into_iter())
         }
-    }
-
-    /// The largest magnitude of a test where the shared numbers have these values.
-    pub(super) fn peak_at(&self, test: usize, values: &[f64], shift: f64) -> Option<f64> {
-        let known = self.tests()[test].known.iter().map(|own| own.mean);
-        let values: Vec<f64> = values.iter().copied().chain(known).collect();
-        Some(self.peak_of(test, self.solved(test, &values).ok()?.as_ref(), shift))
     }
 
     /// The samples of a test where the shared numbers have these values, and what it has to itself is as at a minimum.
@@ -56,16 +51,25 @@ impl Task<'_> {
             let mean_square =
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
             let smeared = test.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency());
-            let resting = &left[..self.rows_before(at, own.shift - smeared)];
+            let rests =
+                if test.kind == Kind::Blow { own.shift - smeared } else { f64::NEG_INFINITY };
+            let resting = &left[..self.rows_before(at, rests)];
             let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
             Some(TestFit {
                 shift: own.shift,
                 offset: own.offset,
                 gain: own.gain,
                 known: self.values_of(at, unknowns)[self.numbers().len()..].to_vec(),
+                jump: self
+                    .record(at)
+                    .jump
+                    .map(|_| own.gain * (curve.value(0.0) - curve.value(-self.record(at).step))),
                 rms: (square / residual.len() as f64).sqrt(),
+                rows: left.len(),
+                mean_square: unit * unit * mean_square(left),
                 noise: unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt(),
                 noise_at_rest: at_rest,
+                scatter: self.scatter(at, unknowns),
                 measured_peak: largest(test.rows.iter().map(|row| row.1 - own.offset)),
                 model_peak: own.gain * self.peak_of(at, curve.as_ref(), own.shift),
                 residual,

@@ -75,6 +75,16 @@ pub fn schema() -> Value {
             "limits": limits(),
             "accuracy": accuracy(),
             "run": run(),
+            "fit": {
+                "description": "options of `dashpot fit` by their names, without dashes; those of the command stand above them",
+                "type": "object",
+                "additionalProperties": {
+                    "anyOf": [
+                        { "type": ["string", "number", "boolean"] },
+                        { "type": "array", "items": { "type": "string" } },
+                    ],
+                },
+            },
         },
         "required": ["elements", "run"],
         "additionalProperties": false,

@@ -2,13 +2,14 @@
 
 use dashpot_fit::linear::Record;
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::DataTable;
+use dashpot_scene::{DataTable, Tunables};
 use dashpot_signal::Cfc;
 
-use super::scene::Varied;
+use super::{pressed::times, scene::Varied};
 use crate::{
     args::{assignment, frequency_class, share},
     error::CliError,
+    input::setting,
     measured::MeasuredFile,
     output::list,
 };
@@ -36,6 +37,8 @@ pub(super) struct Asked {
     pub(super) cfc: Option<Cfc>,
     pub(super) gain: Option<f64>,
     pub(super) noise: Option<String>,
+    /// How fast a model alone was pressed, where the file has no times.
+    pub(super) rate: Option<String>,
 }
 
 /// Reads one.
@@ -46,6 +49,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let mut right = right.split(',');
     let target = right.next().unwrap_or_default();
     let mut set: Vec<(String, String)> = right.map(assignment).collect::<Result<_, _>>()?;
+    let is_model = !target.contains('.');
     let mut take = |word: &str| {
         let at = set.iter().position(|own| own.0 == word)?;
         Some(set.remove(at).1)
@@ -53,6 +57,8 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let cfc = take("cfc").map(|own| frequency_class(&own)).transpose()?;
     let gain = take("gain").map(|own| share(&own)).transpose()?;
     let noise = take("noise");
+    // Else it may be a number of the scene.
+    let rate = if is_model { take("rate") } else { None };
     let (file, columns) = left.rsplit_once(':').ok_or(help)?;
     let columns = list(columns.split(',').map(|own| own.trim().to_owned()));
     let (file, target) = (file.trim(), target.trim());
@@ -61,7 +67,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     }
     let (file, target) = (file.to_owned(), target.to_owned());
     let text = text.trim().to_owned();
-    Ok(Asked { text, file, columns, target, set, cfc, gain, noise })
+    Ok(Asked { text, file, columns, target, set, cfc, gain, noise, rate })
 }
 
 /// A record of a file.
@@ -83,10 +89,22 @@ impl Asked {
         self.set.iter().filter(|own| SCATTER.iter().any(|sign| own.1.contains(sign)))
     }
 
+    /// Whether what is set is there in the scene.
+    pub(super) fn check(&self, tunables: &Tunables) -> Result<(), CliError> {
+        let known = self.set.iter().map(|own| tunables.anything(&own.0).map(|_| ()));
+        let known: Result<(), _> = known.collect();
+        known.map_err(|fault| CliError::Tunable { flag: FLAG, fault })
+    }
+
     /// What is set but for the numbers that are known more or less.
     pub(super) fn plain(&self, known: &[Varied]) -> Vec<(String, String)> {
         let is_known = |name: &String| known.iter().any(|own| own.name == *name);
         list(self.set.iter().filter(|own| !is_known(&own.0)).cloned())
+    }
+
+    /// All but the file and its columns: what was measured, and what is said of it.
+    pub(super) fn what(&self) -> &str {
+        self.text.split_once('=').map_or("", |own| own.1)
     }
 
     /// File, column and output, as for a curve beside a run.
@@ -106,19 +124,61 @@ impl Asked {
             (Some(frequency), _) if found.answers.len() == 2 || time.is_none() => {
                 found.oscillation(frequency, &self.columns)?
             }
-            (_, Some(time)) => found.over_time(time)?,
-            _ => {
-                return Err(file.unclear(
-                    "a column of times, as in `t [s]`, or frequencies, as in `f [Hz]`, is wanted"
-                        .to_owned(),
-                ));
+            (_, Some(_)) if self.rate.is_some() => {
+                let reason =
+                    "it has times: the rate is theirs, and none is to be stated".to_owned();
+                return Err(file.unclear(reason));
             }
+            (_, Some(time)) => found.over_time(time)?,
+            _ => return self.pressed(&file, &found),
         };
         let mut lines = table.lines();
         if let Some(until) = until {
             cut(&mut record, &mut lines, until);
         }
         Ok(Measured { record, is_material, what, note: file.notes(&table), lines })
+    }
+
+    /// A force over a deformation, or a stress over a strain, at the rate that is stated.
+    fn pressed(&self, file: &MeasuredFile, found: &Columns<'_, '_>) -> Result<Measured, CliError> {
+        let &[column] = &found.answers[..] else {
+            return Err(file.unclear("over a deformation one column answers".to_owned()));
+        };
+        let (way, speed, unit, is_material) = match found.dimension(column)? {
+            Dimension::FORCE => (Dimension::LENGTH, Dimension::VELOCITY, "10 mm/min", false),
+            Dimension::PRESSURE => (Dimension::NUMBER, Dimension::FREQUENCY, "0.01 1/s", true),
+            _ => {
+                let wanted = "a column of times, as in `t [s]`, or frequencies, as in `f [Hz]`, is wanted; a force \
+                              over a deformation, or a stress over a strain, goes without";
+                return Err(file.unclear(wanted.to_owned()));
+            }
+        };
+        let Some(driven) = file.only(found.table, way)? else {
+            let wanted = way.named().map_or("a strain, as in `strain [%]`", |own| own.0);
+            return Err(file.unclear(format!(
+                "`{}` stands beside no column of times, of frequencies, or of what was done: {wanted}",
+                found.name(column)
+            )));
+        };
+        let Some(rate) = &self.rate else {
+            return Err(file.unclear(format!(
+                "it has no times: state how fast it was pressed, \"{},rate={unit}\"",
+                self.text
+            )));
+        };
+        let rate = setting("rate", rate, speed)?;
+        if rate.is_nan() || rate <= 0.0 {
+            return Err(file.unclear("a rate is above zero".to_owned()));
+        }
+        let (ways, answers) =
+            (found.numbers(driven, way)?, found.numbers(column, found.dimension(column)?)?);
+        let rows = times(&ways, rate).into_iter().zip(ways).zip(answers).zip(found.table.lines());
+        let rows =
+            rows.filter_map(|(((time, way), answer), line)| Some(([time?, way, answer], line)));
+        let (rows, lines) = rows.unzip();
+        let what = format!("`{}` over `{}`", found.name(column), found.name(driven));
+        let note = file.notes(found.table);
+        Ok(Measured { record: Record::Strained(rows), is_material, what, note, lines })
     }
 
     /// The columns that are named; a symbol that no column has stands for the only one that measures it.

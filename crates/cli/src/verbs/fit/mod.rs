@@ -1,10 +1,15 @@
 //! `dashpot fit`.
 
+mod alone;
+mod among;
 mod asked;
+mod pressed;
 mod scene;
 mod scene_words;
+mod section;
 mod shown;
 mod solver;
+mod target;
 mod words;
 mod written;
 
@@ -37,13 +42,19 @@ use crate::{
     dashpot fit --to \"dma.csv:E',E''=felt\" --error 2%\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:force=pad.force\"\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:acc=head.acceleration\" --cfc 180\n  \
+    dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"press.csv:force=pad,rate=10 mm/min\"\n  \
+    dashpot fit pad.toml --among \"pad=zener,burgers,prony\" --to \"drop.csv:force=pad.force\"\n  \
     dashpot fit pad.toml --to \"hold.csv:stress=foam\" --until \"140 s\" --out fitted.toml\n\n\
-    Files have names and units: times or frequencies, and moduli (relaxation, storage and loss), \
+    Columns of files have names and units: times or frequencies, and moduli (relaxation, storage and loss), \
     compliances (creep), or a stress and the strain that was measured beside it, likewise forces \
-    and deformations of a pad. A scene is fitted to forces, accelerations, velocities or \
-    deformations over time; several tests share its numbers, and what differs is set behind a \
-    comma, as in \"low.csv:force=pad.force,head.drop=0.5 m\", or \"head.velocity=4.5 ± 0.05 m/s\" where it was measured, \
-    and how the test was recorded, as in \"cfc=180,noise=0.5 g,gain=1%\". What no network of springs and dashpots can meet is said, and what \
+    and deformations of a pad.\n\n\
+    A scene is fitted to its outputs over time, such as `pad.force` or `head.acceleration`, and to tests of a model \
+    alone, such as `pad`; a force over a deformation without times states its rate. Several tests share \
+    the numbers. What differs is set behind a comma: \"low.csv:force=pad.force,head.drop=0.5 m\", or \
+    \"head.velocity=4.5 ± 0.05 m/s\" where it was measured, and how the test was recorded: \
+    \"cfc=180,noise=0.5 g,gain=1%\". Tests for which the same stands behind `=` are repeats of one. The section \
+    `[fit]` of a scene sets options by their names; those of the command stand above them.\n\n\
+    What no network of springs and dashpots can meet is said, and what \
     the records do not determine.")]
 pub(crate) struct FitArguments {
     /// The scene whose numbers are fitted, or whose model is replaced; without it a model is written alone.
@@ -51,12 +62,16 @@ pub(crate) struct FitArguments {
     scene: Option<PathBuf>,
     /// What is fitted to: columns of a file to a model, or a column to an output of the scene, with what is set for
     /// this test alone behind a comma; repeatable.
-    #[arg(long, value_name = "FILE:COLUMNS=TARGET", value_parser = asked, required = true)]
+    #[arg(long, value_name = "FILE:COLUMNS=TARGET", value_parser = asked, required_unless_present = "scene")]
     to: Vec<Asked>,
     /// A number of the scene that is fitted, and its bounds, "K=10..1000 kN/m"; repeatable.
     #[arg(long, value_name = "NAME=LOW..HIGH", requires = "scene")]
     vary: Vec<String>,
-    /// The largest error that fewer branches may make.
+    /// Forms of a model of the scene, "pad=spring,zener,burgers,prony": each is fitted in its place, and the one that
+    /// the tests speak for is told and written.
+    #[arg(long, value_name = "[MODEL=]FORM,…", requires = "scene")]
+    among: Option<String>,
+    /// The largest error that fewer branches, or forms with fewer numbers, may make.
     #[arg(long, value_name = "PART", default_value = "1%", value_parser = share)]
     error: f64,
     /// Leaves out rows behind this time of the file.
@@ -69,19 +84,19 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "WHEN", default_value = "on")]
     offset: Switch,
     /// Whether the gain of a record of a scene may be off, and by which part: its standard deviation.
-    #[arg(long, value_name = "PART", requires = "vary", value_parser = share)]
+    #[arg(long, value_name = "PART", value_parser = share)]
     gain: Option<f64>,
     /// The channel frequency class that the records went through: the output of the scene goes through the same filter.
-    #[arg(long, value_name = "CLASS", requires = "vary", value_parser = frequency_class)]
+    #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
     cfc: Option<Cfc>,
     /// What stood beyond the ends of a record for its filter.
     #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
     padding: String,
     /// Standard deviation of a sample before the filter, "0.5 g"; found from what is left of the records by default.
-    #[arg(long, value_name = "VALUE", requires = "vary")]
+    #[arg(long, value_name = "VALUE")]
     noise: Option<String>,
     /// Intervals of the profile likelihood for all numbers; else where the covariance falls short.
-    #[arg(long, requires = "vary")]
+    #[arg(long)]
     profile: bool,
     /// Whether rows that are far off count by their magnitude, in place of its square.
     #[arg(long, value_name = "WHEN", default_value = "on")]
@@ -106,6 +121,35 @@ pub(crate) struct FitArguments {
 }
 
 impl FitArguments {
+    /// Whether there is something to fit to, and nothing is asked for that has no meaning.
+    fn check(&self) -> Result<(), CliError> {
+        let wrong = |name: &str, reason: &str| {
+            let (name, reason) = (name.to_owned(), reason.to_owned());
+            Err(CliError::WrongSetting { name, reason })
+        };
+        if self.to.is_empty() {
+            return wrong("--to", "say to what is fitted, as in \"drop.csv:force=pad.force\"");
+        }
+        let of_numbers = [
+            ("--gain", self.gain.is_some()),
+            ("--cfc", self.cfc.is_some()),
+            ("--noise", self.noise.is_some()),
+            ("--profile", self.profile),
+        ];
+        match of_numbers.iter().find(|own| own.1 && !self.fits_numbers()) {
+            Some((name, _)) => wrong(
+                name,
+                "it is for numbers of a scene: say which, as in `--vary \"K=10..1000 kN/m\"`",
+            ),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether numbers of a scene are fitted, else a model.
+    fn fits_numbers(&self) -> bool {
+        !self.vary.is_empty() || self.among.is_some()
+    }
+
     fn padding(&self) -> Padding {
         Padding::ALL.into_iter().find(|own| own.word() == self.padding).unwrap_or_default()
     }
@@ -135,7 +179,10 @@ impl Fitted {
 /// Fits numbers of a scene, or a model.
 pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status, CliError> {
     let input = arguments.scene.as_deref().map(Input::read).transpose()?;
-    let Some(input) = input.as_ref().filter(|_| !arguments.vary.is_empty()) else {
+    let merged = input.as_ref().map(section::merged).transpose()?.flatten();
+    let arguments = merged.as_ref().unwrap_or(arguments);
+    arguments.check()?;
+    let Some(input) = input.as_ref().filter(|_| arguments.fits_numbers()) else {
         return fit_model(arguments, input.as_ref(), terminal);
     };
     let fitted = scene::fitted(arguments, input, terminal)?;

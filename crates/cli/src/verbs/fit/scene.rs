@@ -2,7 +2,7 @@
 
 use dashpot_analysis::Solve as _;
 use dashpot_fit::network::{
-    Band, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Test, fit,
+    Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Test, fit,
 };
 use dashpot_scene::{
     ScatteredNumber, Scene, Tunables, Variation, read,
@@ -11,9 +11,11 @@ use dashpot_scene::{
 
 use super::{
     FitArguments,
+    among::{Among, Replaced, chosen},
     asked::{Asked, FLAG},
     shown::{Shown, shown},
     solver::{Poser, Solver},
+    target::{Compared, Target, check_alone, targets},
 };
 use crate::{
     args::Switch,
@@ -22,7 +24,6 @@ use crate::{
     operand::print_notes,
     output::list,
     terminal::{Terminal, note},
-    verbs::run::beside::MeasuredCurve,
 };
 
 /// Digits of fitted numbers in a scene.
@@ -32,6 +33,7 @@ const FARTHEST: f64 = 8.0;
 const FACTOR: f64 = 4.0;
 
 /// A number that was fitted.
+#[derive(Debug, Clone)]
 pub(super) struct Varied {
     pub(super) name: String,
     /// Its unit in the scene, or that of the command line; empty where it has none.
@@ -41,7 +43,10 @@ pub(super) struct Varied {
     /// Its SI unit.
     pub(super) si: String,
     pub(super) bounds: [f64; 2],
-    pub(super) at: usize,
+    /// Where the search begins.
+    pub(super) start: f64,
+    /// Its place in the text; a constant of a form has none.
+    pub(super) at: Option<usize>,
 }
 
 /// A measure of the fitted scene: its key, its SI unit, and what the uncertainty of the numbers makes of it.
@@ -55,76 +60,176 @@ pub(super) struct Measured {
 pub(super) struct FittedScene {
     pub(super) scene: Scene,
     pub(super) numbers: Vec<Varied>,
-    pub(super) curves: Vec<(Asked, MeasuredCurve)>,
+    pub(super) curves: Vec<(Asked, Target)>,
     /// For each test its numbers that were measured besides.
     pub(super) known: Vec<Vec<Varied>>,
     pub(super) tests: Vec<Test>,
     pub(super) shown: Vec<Shown>,
     pub(super) measures: Vec<Measured>,
     pub(super) fit: NetworkFit,
+    /// Among which forms of a model this one was chosen.
+    pub(super) among: Option<Among>,
+    replaced: Option<Replaced>,
     tunables: Tunables,
 }
 
-/// Fits numbers of a scene.
+/// What is fitted to what.
+pub(super) struct Plan<'p> {
+    pub(super) arguments: &'p FitArguments,
+    pub(super) input: &'p Input,
+    pub(super) scene: Scene,
+    pub(super) tunables: Tunables,
+    numbers: Vec<Varied>,
+    pub(super) curves: Vec<(Asked, Target)>,
+    known: Vec<Vec<Varied>>,
+    pub(super) tests: Vec<Test>,
+}
+
+/// Fits numbers of a scene, or the constants of the form of a model that the tests speak for.
 pub(super) fn fitted(
     arguments: &FitArguments,
     input: &Input,
     terminal: Terminal,
 ) -> Result<FittedScene, CliError> {
-    let set = &arguments.values.set;
-    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
-    print_notes(&scene.notes);
-    let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
-    let numbers = numbers(arguments, &tunables)?;
-    let read = |own: &Asked| MeasuredCurve::read((FLAG, &own.measured_as()), 0.0, &scene.assembly);
-    let curves = arguments.to.iter().map(|own| Ok((own.clone(), read(own)?)));
-    let curves = curves.collect::<Result<Vec<_>, CliError>>()?;
-    curves.iter().filter_map(|own| own.1.note.as_deref()).for_each(note);
-    let own = curves.iter().map(|own| own_numbers(&own.0, &tunables));
-    let own = own.collect::<Result<Vec<_>, _>>()?;
-    let tests = curves.iter().zip(&own);
-    let tests = tests.map(|((asked, curve), own)| test(arguments, asked, curve, own));
-    let tests = tests.collect::<Result<Vec<Test>, _>>()?;
-    let known: Vec<Vec<Varied>> =
-        list(own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0))));
-    let posers = curves.iter().zip(&known).map(|((asked, _), known)| Poser {
-        input,
-        tunables: &tunables,
-        numbers: list(numbers.iter().chain(known)),
-        set: [unvaried(set, &numbers, &tunables), asked.plain(known)].concat(),
-    });
-    let posers: Vec<Poser<'_>> = list(posers);
-    let begin = |own: &Varied| {
-        let [low, high] = own.bounds;
-        let start = tunables.all()[own.at].value;
-        let is_between = (low..=high).contains(&start);
-        Number { low, high, start: if is_between { start } else { (low * high).sqrt() } }
-    };
-    let begun: Vec<Number> = list(numbers.iter().map(begin));
-    let settings = NetworkSettings {
-        starts: arguments.starts,
-        seed: arguments.seed,
-        is_robust: arguments.robust == Switch::On,
-        is_profiled: arguments.profile,
-    };
-    let fit = searched(&begun, &tests, settings, (&posers, &curves));
-    let mut fit = fit.map_err(|fault| wrong(&fault, &curves))?;
-    let fault = |reason| CliError::Fit { text: "scene".to_owned(), reason };
-    let means: Vec<f64> = list(tests[0].known.iter().map(|own| own.mean));
-    let network = |values: &[f64]| {
-        posers[0].posed(&[values, &means].concat()).map(|own| own.network).map_err(fault)
-    };
-    let shown = shown(&fit, &numbers, &network)?;
-    // What no test tells apart has no intervals, whatever rounding makes of them.
-    let is_shown = |own: &Varied| shown.iter().any(|other| other.numbers.contains(&own.name));
-    let each = numbers.iter().zip(&mut fit.numbers).filter(|own| is_shown(own.0));
-    each.for_each(|own| own.1.ends = [None; 2]);
-    let whole = Poser { input, tunables: &tunables, numbers: list(&numbers), set: set.clone() };
-    let measures = measures(&whole, &fit);
-    drop(posers);
-    Ok(FittedScene { scene, numbers, curves, known, tests, shown, measures, fit, tunables })
+    let plan = Plan::read(arguments, input, terminal)?;
+    if let Some(asked) = &arguments.among {
+        return chosen(plan, asked);
+    }
+    let fit = plan.fit(None, plan.profile())?;
+    plan.finished(None, fit, None)
+}
+
+impl<'p> Plan<'p> {
+    fn read(
+        arguments: &'p FitArguments,
+        input: &'p Input,
+        terminal: Terminal,
+    ) -> Result<Self, CliError> {
+        let set = &arguments.values.set;
+        let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+        terminal.diagnose(&checked.warnings);
+        let scene = checked.value;
+        print_notes(&scene.notes);
+        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+        let numbers = numbers(arguments, &tunables)?;
+        let mut curves: Vec<(Asked, Target)> = Vec::new();
+        for asked in &arguments.to {
+            asked.check(&tunables)?;
+            let all = targets(asked, arguments.until, &scene.assembly)?.into_iter();
+            curves.extend(all.map(|own| (asked.clone(), own)));
+        }
+        curves.iter().filter_map(|own| own.1.note.as_deref()).for_each(note);
+        let own = curves.iter().map(|own| own_numbers(&own.0, &tunables));
+        let own = own.collect::<Result<Vec<_>, _>>()?;
+        let tests = curves.iter().zip(&own);
+        let tests = tests.map(|((asked, curve), own)| test(arguments, asked, curve, own));
+        let mut tests = tests.collect::<Result<Vec<Test>, _>>()?;
+        // The same test as far as anybody has said.
+        let said = |own: &(Asked, Target)| (own.0.what().to_owned(), own.1.output.key());
+        for (at, test) in tests.iter_mut().enumerate() {
+            let first = curves.iter().position(|own| said(own) == said(&curves[at]));
+            let is_more = curves.iter().filter(|own| said(own) == said(&curves[at])).count() > 1;
+            test.repeated = first.filter(|_| is_more);
+        }
+        let known = own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0)));
+        let known = list(known);
+        Ok(Self { arguments, input, scene, tunables, numbers, curves, known, tests })
+    }
+
+    /// What poses the scene of each test, with a form in the place of a model of it.
+    fn posers<'s>(&'s self, replaced: Option<&'s Replaced>) -> Vec<Poser<'s>> {
+        let set = &self.arguments.values.set;
+        let constants = || replaced.into_iter().flat_map(|own| &own.constants);
+        let each = self.curves.iter().zip(&self.known).map(|((asked, _), known)| Poser {
+            input: self.input,
+            tunables: &self.tunables,
+            numbers: list(self.numbers.iter().chain(constants()).chain(known)),
+            replaced,
+            set: [unvaried(set, &self.numbers, &self.tunables), asked.plain(known)].concat(),
+        });
+        list(each)
+    }
+
+    /// Which intervals are asked for.
+    pub(super) fn profile(&self) -> Profile {
+        if self.arguments.profile { Profile::Always } else { Profile::WhereNeeded }
+    }
+
+    /// Fits the numbers, and the constants of a form.
+    pub(super) fn fit(
+        &self,
+        replaced: Option<&Replaced>,
+        profile: Profile,
+    ) -> Result<NetworkFit, CliError> {
+        let posers = self.posers(replaced);
+        let begin = |own: &Varied| {
+            let [low, high] = own.bounds;
+            let is_between = (low..=high).contains(&own.start);
+            Number { low, high, start: if is_between { own.start } else { (low * high).sqrt() } }
+        };
+        let constants = replaced.into_iter().flat_map(|own| &own.constants);
+        let begun: Vec<Number> = list(self.numbers.iter().chain(constants).map(begin));
+        for (at, (asked, target)) in self.curves.iter().enumerate() {
+            let own = begun.iter().map(|own| own.start);
+            let own: Vec<f64> = list(own.chain(self.known[at].iter().map(|own| own.start)));
+            check_alone(asked, &target.output, &posers[at], &own)?;
+            let wrong = |reason| CliError::Fit { text: asked.text.clone(), reason };
+            posers[at].posed(&own).map_err(wrong)?;
+        }
+        let settings = NetworkSettings {
+            starts: self.arguments.starts,
+            seed: self.arguments.seed,
+            is_robust: self.arguments.robust == Switch::On,
+            profile,
+        };
+        let fit = searched(&begun, &self.tests, settings, (&posers, &self.curves));
+        fit.map_err(|fault| wrong(&fault, &self.curves))
+    }
+
+    /// What there is to say of a fit.
+    pub(super) fn finished(
+        self,
+        replaced: Option<Replaced>,
+        mut fit: NetworkFit,
+        among: Option<Among>,
+    ) -> Result<FittedScene, CliError> {
+        let constants = replaced.iter().flat_map(|own| &own.constants);
+        let numbers: Vec<Varied> = list(self.numbers.iter().chain(constants).cloned());
+        let posers = self.posers(replaced.as_ref());
+        let fault = |reason| CliError::Fit { text: "scene".to_owned(), reason };
+        let means: Vec<f64> = list(self.tests[0].known.iter().map(|own| own.mean));
+        let network = |values: &[f64]| {
+            posers[0].posed(&[values, &means].concat()).map(|own| own.network).map_err(fault)
+        };
+        let shown = shown(&fit, &numbers, &network)?;
+        // What no test tells apart has no intervals, whatever rounding makes of them.
+        let is_shown = |own: &Varied| shown.iter().any(|other| other.numbers.contains(&own.name));
+        let each = numbers.iter().zip(&mut fit.numbers).filter(|own| is_shown(own.0));
+        each.for_each(|own| own.1.ends = [None; 2]);
+        let whole = Poser {
+            input: self.input,
+            tunables: &self.tunables,
+            numbers: list(&numbers),
+            replaced: replaced.as_ref(),
+            set: self.arguments.values.set.clone(),
+        };
+        let measures = measures(&whole, &fit);
+        drop(posers);
+        let Self { scene, tunables, curves, known, tests, .. } = self;
+        Ok(FittedScene {
+            scene,
+            numbers,
+            curves,
+            known,
+            tests,
+            shown,
+            measures,
+            fit,
+            among,
+            replaced,
+            tunables,
+        })
+    }
 }
 
 /// What is set but for numbers that are fitted: it would stand above what is written into the text.
@@ -133,8 +238,9 @@ fn unvaried(
     numbers: &[Varied],
     tunables: &Tunables,
 ) -> Vec<(String, String)> {
-    let is_varied =
-        |name: &str| tunables.find(name).is_ok_and(|at| numbers.iter().any(|own| own.at == at));
+    let is_varied = |name: &str| {
+        tunables.find(name).is_ok_and(|at| numbers.iter().any(|own| own.at == Some(at)))
+    };
     list(set.iter().filter(|own| !is_varied(&own.0)).cloned())
 }
 
@@ -143,7 +249,7 @@ fn searched(
     begun: &[Number],
     tests: &[Test],
     settings: NetworkSettings,
-    (posers, curves): (&[Poser<'_>], &[(Asked, MeasuredCurve)]),
+    (posers, curves): (&[Poser<'_>], &[(Asked, Target)]),
 ) -> Result<NetworkFit, NetworkFault> {
     let point = |own: &'_ Poser<'_>, values: &[f64]| own.point(values);
     let points = posers.iter().map(|own| move |values: &[f64]| point(own, values));
@@ -154,15 +260,22 @@ fn searched(
         let bounds = begun.iter().map(|own| [own.low, own.high]);
         let bounds = bounds.chain(test.known.iter().map(around));
         let (starts, bounds): (Vec<f64>, Vec<[f64; 2]>) = (list(starts), list(bounds));
-        Solver::new(poser, point, &curve.output, &starts, &bounds)
+        match &curve.output {
+            Compared::Output(output) => Some(Solver::new(poser, point, output, &starts, &bounds)),
+            Compared::Alone(_) => None,
+        }
     });
-    let solvers: Vec<Solver<'_>> = list(solvers);
-    let model = |test: usize, values: &[f64]| solvers[test].curve(values);
+    let solvers: Vec<Option<Solver<'_>>> = list(solvers);
+    let model = |test: usize, values: &[f64]| match (&solvers[test], &curves[test].1.output) {
+        (None, Compared::Alone(own)) => own.curve(&posers[test], values),
+        (Some(own), _) => own.curve(values),
+        (None, Compared::Output(own)) => Err(format!("`{}` has no run", own.key())),
+    };
     let found = fit(begun, tests, settings, &model)?;
-    let is_alike = |(at, own): (usize, &Solver<'_>)| {
+    let is_alike = |(at, own): (usize, &Option<Solver<'_>>)| {
         let values = found.numbers.iter().map(|own| own.value);
         let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
-        own.agrees(&values)
+        own.as_ref().is_none_or(|own| own.agrees(&values))
     };
     // All are asked: each that does not agree goes on with full runs.
     let unlike = solvers.iter().enumerate().filter(|own| !is_alike(*own)).count();
@@ -224,7 +337,8 @@ fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliErro
         let one = one.map_or(1.0, |one| own.dimension.map_or(one, |to| one.meant(to)).value);
         let known = Known { mean: own.mean, deviation: own.deviation };
         let bounds = around(&known);
-        numbers.push((Varied { name: name.clone(), unit, one, si, bounds, at }, known));
+        let (name, start, at) = (name.clone(), known.mean, Some(at));
+        numbers.push((Varied { name, unit, one, si, bounds, start, at }, known));
     }
     Ok(OwnNumbers { numbers })
 }
@@ -233,7 +347,7 @@ fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliErro
 fn test(
     arguments: &FitArguments,
     asked: &Asked,
-    curve: &MeasuredCurve,
+    curve: &Target,
     own: &OwnNumbers,
 ) -> Result<Test, CliError> {
     let noise = asked.noise.as_ref().or(arguments.noise.as_ref());
@@ -242,19 +356,28 @@ fn test(
         let reason = "noise is a standard deviation above zero".to_owned();
         return Err(CliError::Fit { text: asked.text.clone(), reason });
     }
-    let cfc = asked.cfc.or(arguments.cfc);
+    let kind = curve.output.kind();
+    if asked.cfc.is_some() && kind != Kind::Blow {
+        let reason = "a class is that of a record of a run, not of a model alone".to_owned();
+        return Err(CliError::Fit { text: asked.text.clone(), reason });
+    }
+    let cfc = asked.cfc.or(arguments.cfc).filter(|_| kind == Kind::Blow);
+    // A motion at a stated rate has no clock.
+    let is_shifted = arguments.shift == Switch::On && kind != Kind::Modulus && asked.rate.is_none();
     Ok(Test {
         rows: curve.rows.clone(),
-        is_shifted: arguments.shift == Switch::On,
-        is_offset: arguments.offset == Switch::On,
+        kind,
+        is_shifted,
+        is_offset: arguments.offset == Switch::On && kind != Kind::Modulus,
         gain: asked.gain.or(arguments.gain),
         filter: cfc.map(|own| (own, arguments.padding())),
         noise,
+        repeated: None,
         known: list(own.numbers.iter().map(|own| own.1)),
     })
 }
 
-fn wrong(fault: &NetworkFault, curves: &[(Asked, MeasuredCurve)]) -> CliError {
+fn wrong(fault: &NetworkFault, curves: &[(Asked, Target)]) -> CliError {
     let (text, reason) = match fault {
         NetworkFault::Nothing { test } => {
             (&curves[*test].0.text, "its values are zero throughout".to_owned())
@@ -286,7 +409,8 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         let one = one.map_or(1.0, |own| number.dimension.map_or(own, |to| own.meant(to)).value);
         let dimension = number.dimension.or(own.dimension);
         let si = dimension.map_or(String::new(), si_unit);
-        Ok(Varied { name: own.name.clone(), unit: unit.clone(), one, si, bounds, at })
+        let (name, unit, start) = (own.name.clone(), unit.clone(), number.value);
+        Ok(Varied { name, unit, one, si, bounds, start, at: Some(at) })
     });
     varied.collect()
 }
@@ -294,12 +418,18 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
 impl FittedScene {
     /// The text of the scene with the numbers that were found, below lines on where they are from.
     pub(super) fn scene_text(&self, comments: &[String]) -> String {
-        let texts = self.numbers.iter().zip(&self.fit.numbers).map(|(own, found)| {
-            let number: f64 =
-                format!("{:.*e}", DIGITS - 1, found.value / own.one).parse().unwrap_or(f64::NAN);
-            (own.at, format!("{number} {}", own.unit).trim_end().to_owned())
+        let rounded = |own: f64| format!("{:.*e}", DIGITS - 1, own).parse().unwrap_or(f64::NAN);
+        let each = || self.numbers.iter().zip(&self.fit.numbers);
+        let texts = each().filter_map(|(own, found)| {
+            let number: f64 = rounded(found.value / own.one);
+            Some((own.at?, format!("{number} {}", own.unit).trim_end().to_owned()))
         });
         let text = self.tunables.text_with(&list(texts));
+        let constants = each().filter(|own| own.0.at.is_none());
+        let constants: Vec<f64> = list(constants.map(|own| rounded(own.1.value)));
+        let comment = "in place of what was fitted worse or with more numbers";
+        let replaced = self.replaced.as_ref().map(|own| own.text(&text, &constants, comment));
+        let text = replaced.and_then(Result::ok).unwrap_or(text);
         let lines: Vec<String> = list(comments.iter().map(|own| format!("# {own}\n")));
         lines.concat() + &text
     }

@@ -1,12 +1,14 @@
 //! What a fit of numbers of a scene says.
 
-use dashpot_fit::network::{Interval, Source, Test, TestFit};
+use dashpot_fit::network::{Interval, Kind, Source, Test, TestFit};
 use dashpot_plot::Table;
 use serde::Serialize;
 
 use super::{
+    among::Among,
     scene::{FittedScene, Varied},
     shown::Shown,
+    target::Compared,
 };
 use crate::{
     input::title,
@@ -28,8 +30,11 @@ const NOISIER: f64 = 1.5;
 /// More others are not listed.
 const MOST_OTHERS: usize = 3;
 
-/// A value in the unit of a number.
+/// A value in the unit of a number, of a constant of a form in that which suits it.
 fn value(own: &Varied, value: f64) -> String {
+    if own.at.is_none() {
+        return quantity(value, &own.si, DIGITS);
+    }
     let number = significant(value / own.one, DIGITS);
     if own.unit.is_empty() { number } else { format!("{number} {}", own.unit) }
 }
@@ -65,18 +70,19 @@ impl FittedScene {
 
     fn tests_table(&self) -> Table {
         let rows = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
-            let unit = curve.output.unit();
-            let of = |value: f64| quantity(value, unit, FEW);
+            let of = |value: f64| curve.output.told(value, FEW);
             let peak = own.model_peak / own.measured_peak - 1.0;
-            let held_out = own.held_out.map_or_else(String::new, percent_signed);
+            let held_out = own.held_out.map_or_else(String::new, |own| percent_signed(own.peak));
+            let has_clock = curve.output.kind() != Kind::Modulus;
+            let if_any = |word: String| if has_clock { word } else { String::new() };
             vec![
                 asked.file.clone(),
                 curve.output.key(),
                 of(own.rms),
                 percent_signed(peak),
                 held_out,
-                quantity(own.shift, "s", FEW),
-                of(own.offset),
+                if_any(quantity(own.shift, "s", FEW)),
+                if_any(of(own.offset)),
             ]
         });
         let header =
@@ -94,7 +100,7 @@ impl FittedScene {
         });
         let rows = self.curves.iter().zip(&self.fit.tests).enumerate().map(|(at, both)| {
             let ((asked, curve), own) = both;
-            let of = |value: f64| quantity(value, curve.output.unit(), FEW);
+            let of = |value: f64| curve.output.told(value, FEW);
             let cfc =
                 self.tests[at].filter.map_or_else(String::new, |own| own.0.class().to_string());
             let gain =
@@ -131,8 +137,8 @@ impl FittedScene {
 
     /// What comes first.
     fn said_first(&self) -> Vec<String> {
-        let mut all = Vec::new();
         let fit = &self.fit;
+        let mut all: Vec<String> = list(self.among.iter().filter_map(Among::said_first));
         if !fit.is_converged {
             all.push("the search has not converged: these numbers are not a minimum".to_owned());
         }
@@ -158,7 +164,7 @@ impl FittedScene {
         }
         all.extend(self.shown.iter().map(undetermined));
         all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, _), own)| {
-            let held_out = own.held_out.filter(|off| off.abs() > MISSED)?;
+            let held_out = own.held_out.map(|own| own.peak).filter(|off| off.abs() > MISSED)?;
             Some(format!(
                 "fitted to the other tests alone, the peak of {} is off by {}: the scene does not carry from one \
                  test to the other",
@@ -168,6 +174,7 @@ impl FittedScene {
         }));
         let duration = self.scene.run.duration;
         all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
+            let Compared::Output(_) = curve.output else { return None };
             let last = curve.rows.last()?.0 - own.shift;
             (last > duration * (1.0 + BEYOND)).then(|| {
                 format!(
@@ -181,9 +188,10 @@ impl FittedScene {
         let each = || self.curves.iter().zip(&fit.tests).zip(&self.tests);
         all.extend(each().filter_map(|(((asked, _), own), test)| misses(&asked.file, own, test)));
         all.extend(each().filter_map(|(((asked, curve), own), test)| {
-            let known = test.noise.or(own.noise_at_rest)?;
+            let scatter = own.scatter.map(|own| own.deviation);
+            let known = test.noise.or(scatter).or(own.noise_at_rest)?;
             (own.noise > NOISIER * known).then(|| {
-                let of = |value: f64| quantity(value, curve.output.unit(), FEW);
+                let of = |value: f64| curve.output.told(value, FEW);
                 format!(
                     "{}: what is left is {} where noise is {}: the scene, or what is said of the record, is not quite \
                      what was tested, and intervals tell nothing of that",
@@ -210,6 +218,7 @@ impl FittedScene {
                 String::new()
             }
         )];
+        all.extend(self.among.iter().map(Among::remark));
         let profiled = self.numbers.iter().zip(&fit.numbers);
         let profiled = profiled.filter(|own| own.1.source == Source::Profile);
         let profiled: Vec<String> = list(profiled.map(|own| format!("`{}`", own.0.name)));
@@ -228,12 +237,41 @@ impl FittedScene {
                 fit.outliers
             ));
         }
+        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
+            let jump = curve.output.told(own.jump?, FEW);
+            Some(format!(
+                "{}: `{}` jumps by {jump} as the impact begins, so that only samples beside it tell of the clock: it may \
+                 be anywhere between them, which the intervals hold",
+                asked.file,
+                curve.output.key()
+            ))
+        }));
+        all.extend(self.repeats());
         if let [_] = fit.tests[..] {
             all.push(
                 "one test tells nothing of how the scene carries to another height, mass or temperature".to_owned(),
             );
         }
         all
+    }
+
+    /// What records of one test differ by.
+    fn repeats(&self) -> Vec<String> {
+        let each = self.curves.iter().zip(&self.fit.tests).enumerate();
+        let first = each.filter(|own| self.tests[own.0].repeated == Some(own.0));
+        let told = first.filter_map(|(_, ((asked, curve), own))| {
+            let scatter = own.scatter?;
+            Some(format!(
+                "{} records of `{}`, {} the first: a row of them differs by {} (standard deviation), and {} rows stand \
+                 for one that is independent; that is their noise, and leaving out one of them tells nothing",
+                scatter.records,
+                asked.what(),
+                asked.file,
+                curve.output.told(scatter.deviation, FEW),
+                significant(scatter.correlation, 2)
+            ))
+        });
+        told.collect()
     }
 
     /// What stands above the scene.
@@ -243,7 +281,7 @@ impl FittedScene {
                 "{} ({}, {} rms)",
                 asked.file,
                 curve.output.key(),
-                quantity(own.rms, curve.output.unit(), FEW)
+                curve.output.told(own.rms, FEW)
             )
         });
         let head = format!("fitted to {}", tests.collect::<Vec<_>>().join(", "));
@@ -296,6 +334,7 @@ impl Study for FittedScene {
     fn text(&self, text: &mut Text) {
         text.warnings(&self.said_first());
         text.title(title(&self.scene));
+        self.among.iter().for_each(|own| text.table(&own.table()));
         text.table(&self.numbers_table());
         text.table(&self.tests_table());
         self.own_table().iter().for_each(|own| text.table(own));
@@ -331,7 +370,14 @@ impl Study for FittedScene {
         let tests = self.curves.iter().zip(&self.fit.tests).enumerate();
         let tests = tests.map(|(at, ((asked, curve), own))| {
             let known = self.known[at].iter().zip(&own.known);
-            let known = known.map(|(own, value)| (own.name.as_str(), object! { value, unit: &own.si }));
+            let known =
+                known.map(|(own, value)| (own.name.as_str(), object! { value, unit: &own.si }));
+            let is_modulus = curve.output.kind() == Kind::Modulus;
+            let model = curve
+                .rows
+                .iter()
+                .zip(&own.residual)
+                .map(|(row, left)| if is_modulus { row.1 * left.exp() } else { row.1 + left });
             object! {
                 file: &asked.file,
                 output: curve.output.key(),
@@ -341,16 +387,23 @@ impl Study for FittedScene {
                 offset: own.offset,
                 measured_peak: own.measured_peak,
                 model_peak: own.model_peak,
-                held_out: own.held_out,
+                held_out: own.held_out.map(|own| own.peak),
+                held_out_rms: own.held_out.map(|own| own.rms),
+                jump: own.jump,
                 cfc: self.tests[at].filter.map(|own| own.0.class()),
                 noise: own.noise,
                 noise_at_rest: own.noise_at_rest,
+                scatter: own.scatter.map(|own| object! {
+                    deviation: own.deviation,
+                    correlation: own.correlation,
+                    records: own.records,
+                }),
                 gain: own.gain,
                 known: known.collect::<Pairs<_, _>>(),
                 curve: object! {
                     time: list(curve.rows.iter().map(|row| row.0)),
                     measured: list(curve.rows.iter().map(|row| row.1)),
-                    model: list(curve.rows.iter().zip(&own.residual).map(|(row, left)| row.1 + left)),
+                    model: list(model),
                     band: &own.band,
                 },
             }
@@ -371,6 +424,7 @@ impl Study for FittedScene {
             tests: list(tests),
             converged: self.fit.is_converged,
             floor: None::<f64>,
+            among: self.among.as_ref().map(Among::object),
             starts: self.fit.reached,
             others: list(others.map(|own| object! { values: &own.values, cost: own.cost })),
             outliers: self.fit.outliers,

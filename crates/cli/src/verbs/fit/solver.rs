@@ -14,9 +14,9 @@ use dashpot_dae::Signal;
 use dashpot_fit::network::Curve;
 use dashpot_network::Assembly;
 use dashpot_plot::Of;
-use dashpot_scene::{Posed, Tunables, pose};
+use dashpot_scene::{Diagnostics, NamedModel, Posed, Tunables, pose, read_named_model};
 
-use super::scene::Varied;
+use super::{among::Replaced, scene::Varied};
 use crate::{
     input::Input,
     output::list,
@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Tolerance of runs by stepping methods.
-const RTOL: f64 = 1e-9;
+pub(super) const RTOL: f64 = 1e-9;
 /// Runs that are kept for each test, because they are asked for again.
 const KEPT: usize = 4;
 /// Forces of one form may differ from full runs by this part of the peak.
@@ -41,22 +41,34 @@ pub(super) struct Poser<'s> {
     pub(super) tunables: &'s Tunables,
     /// The numbers that are written, in the order of their values.
     pub(super) numbers: Vec<&'s Varied>,
+    /// A form in the place of a model, by its constants among the numbers.
+    pub(super) replaced: Option<&'s Replaced>,
     /// What is set besides.
     pub(super) set: Vec<(String, String)>,
 }
 
 impl Poser<'_> {
-    /// The scene where the numbers have these values in SI units.
+    /// The text of the scene where the numbers have these values in SI units.
+    fn text(&self, values: &[f64]) -> Solved<String> {
+        let each = || self.numbers.iter().zip(values);
+        let texts = each().filter_map(|(own, value)| {
+            Some((own.at?, format!("{value:e} {}", own.si).trim_end().to_owned()))
+        });
+        let text = self.tunables.text_with(&list(texts));
+        let Some(replaced) = self.replaced else { return Ok(text) };
+        let constants = each().filter(|own| own.0.at.is_none()).map(|own| *own.1);
+        replaced.text(&text, &list(constants), "").map_err(|own| own.to_string())
+    }
+
+    /// The scene there.
     pub(super) fn posed(&self, values: &[f64]) -> Solved<Posed> {
-        let each = self.numbers.iter().zip(values);
-        let texts = each.map(|(own, value)| (own.at, format!("{value:e} {}", own.si)));
-        let texts: Vec<(usize, String)> =
-            list(texts.map(|(at, text)| (at, text.trim_end().to_owned())));
-        let text = self.tunables.text_with(&texts);
-        pose(&text, &self.input.options(&self.set)).map_err(|faults| {
-            let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
-            messages.collect::<Vec<_>>().join("; ")
-        })
+        pose(&self.text(values)?, &self.input.options(&self.set)).map_err(|own| messages(&own))
+    }
+
+    /// One of its models there.
+    pub(super) fn model(&self, name: &str, values: &[f64]) -> Solved<NamedModel> {
+        let model = read_named_model(&self.text(values)?, name, &self.input.options(&self.set));
+        model.map(|own| own.value).map_err(|own| messages(&own))
     }
 
     /// The same with what is asked of a run of which differences are taken.
@@ -72,6 +84,11 @@ impl Poser<'_> {
         settings.rtol = settings.rtol.or(Some(RTOL));
         Ok(ScenePoint { network: posed.network, settings })
     }
+}
+
+fn messages(faults: &Diagnostics) -> String {
+    let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
+    messages.collect::<Vec<_>>().join("; ")
 }
 
 /// A run for these numbers.

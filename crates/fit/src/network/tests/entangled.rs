@@ -107,7 +107,8 @@ fn what_the_structure_calls_one_constant_is_found_as_one() {
             .iter()
             .map(|own| Number { low: own / 1e3, high: own * 1e3, start: start(own) })
             .collect();
-        let settings = NetworkSettings { starts: 4, seed, is_robust: false, is_profiled: false };
+        let settings =
+            NetworkSettings { starts: 4, seed, is_robust: false, profile: Profile::WhereNeeded };
         let model = |_: usize, own: &[f64]| Ok(creep(&shape, own));
         let own = fit(&numbers, &[test], settings, &model).unwrap();
         let values: Vec<f64> = own.numbers.iter().map(|own| own.value).collect();

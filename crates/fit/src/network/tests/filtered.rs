@@ -100,7 +100,7 @@ fn fitted(test: &Test, is_robust: bool) -> NetworkFit {
 
 fn fitted_to(test: &Test, is_robust: bool, model: &Model<'_>) -> NetworkFit {
     let numbers = PAD.map(|own| Number { low: own / 10.0, high: own * 10.0, start: own * 1.3 });
-    let settings = NetworkSettings { starts: 1, seed: 1, is_robust, is_profiled: false };
+    let settings = NetworkSettings { starts: 1, seed: 1, is_robust, profile: Profile::WhereNeeded };
     fit(&numbers, std::slice::from_ref(test), settings, model).unwrap()
 }
 

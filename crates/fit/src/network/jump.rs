@@ -1,0 +1,144 @@
+//! Curves that jump as they start, such as the force of a dashpot that is struck.
+//!
+//! Samples tell between which two of them the jump was and no more, so what is left of them is a step function of the
+//! clock. Here it is decided which sample is the first behind the jump. From there the clock is a number that was
+//! measured besides, as good as even over the step between the two: with the mean and the standard deviation of that it
+//! takes part in the fit, in which no sample changes sides. Averaged over where in its step a blow falls, the estimate
+//! that is linear in these two has the covariance that is told, whatever the rest of the curve says of the clock.
+
+use super::{Curve, Kind, residuals::Task, sum};
+
+/// A curve jumps as it starts where that is more than this part of its peak.
+const JUMPS: f64 = 0.05;
+/// So many of the steepest steps of a record are taken for that jump at first.
+const STEEPEST: usize = 4;
+/// A jump of less than so many standard deviations of a sample takes no part of its own.
+const FEWEST: f64 = 2.0;
+/// So many samples to either side are looked at.
+const LOOKED: usize = 4;
+
+/// Where the jump of a curve lies among the samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Jump {
+    /// The first sample behind it.
+    pub(super) first: usize,
+    /// Between which times it is \[s\].
+    pub(super) ends: [f64; 2],
+    /// Mean and standard deviation of its time \[s\].
+    pub(super) mean: f64,
+    pub(super) deviation: f64,
+}
+
+impl Jump {
+    /// That before a sample; none before the first.
+    fn before(first: usize, times: &[f64]) -> Option<Self> {
+        let ends = [*times.get(first.checked_sub(1)?)?, *times.get(first)?];
+        let mean = 0.5 * (ends[0] + ends[1]);
+        let deviation = (ends[1] - ends[0]) / 12.0_f64.sqrt();
+        (deviation > 0.0).then_some(Self { first, ends, mean, deviation })
+    }
+
+    /// How far a time is from the mean, in standard deviations.
+    pub(super) fn off(&self, time: f64) -> f64 {
+        (time - self.mean) / self.deviation
+    }
+}
+
+impl Task<'_> {
+    /// Where the search for the clock of a test begins. For a blow where peaks stand together, or the jump of the curve is one of
+    /// the steepest steps of the record, whichever leaves less of the rows. From one jump a search does not come to
+    /// another.
+    pub(super) fn start_of_clock(&self, test: usize, curve: &dyn Curve) -> f64 {
+        let (record, rows) = (self.record(test), &self.tests()[test].rows);
+        if self.tests()[test].kind != Kind::Blow {
+            return 0.0;
+        }
+        let peak = curve.peak();
+        let aligned = record.peak_time - peak.0;
+        let height = curve.value(0.0) - curve.value(-record.step);
+        if height.abs() <= JUMPS * peak.1.abs() {
+            return aligned;
+        }
+        let step = |pair: &[(f64, f64)]| {
+            ((pair[1].1 - pair[0].1) * height.signum(), 0.5 * (pair[0].0 + pair[1].0))
+        };
+        let mut steps: Vec<(f64, f64)> = rows.windows(2).map(step).collect();
+        steps.sort_by(|one, other| other.0.total_cmp(&one.0));
+        let tried = steps.iter().take(STEEPEST).map(|own| own.1);
+        let left = |late: f64| self.left_of_line(test, curve, late);
+        let best =
+            tried.map(|late| (left(late), late)).fold((left(aligned), aligned), |best, own| {
+                if own.0 < best.0 { own } else { best }
+            });
+        best.1
+    }
+
+    /// What the nearest multiple of a curve, by a clock that is so late, and the nearest zero leave of the rows: the
+    /// sum of squares.
+    fn left_of_line(&self, test: usize, curve: &dyn Curve, late: f64) -> f64 {
+        let model = self.recorded(test, curve, late);
+        let rows = &self.tests()[test].rows;
+        let count = rows.len() as f64;
+        let means = [model.iter().sum::<f64>(), rows.iter().map(|own| own.1).sum()];
+        let [model_mean, mean] = means.map(|own| own / count);
+        let mut sums = [0.0; 3];
+        for (model, row) in model.iter().zip(rows) {
+            let (one, other) = (model - model_mean, row.1 - mean);
+            sums[0] += one * one;
+            sums[1] += one * other;
+            sums[2] += other * other;
+        }
+        let [own, both, measured] = sums;
+        if own > 0.0 { measured - both.max(0.0).powi(2) / own } else { measured }
+    }
+
+    /// Finds the jumps of all tests at a minimum, and puts their clocks between the samples. Whether there are any.
+    pub(super) fn place_jumps(&mut self, unknowns: &mut [f64], scale: Option<f64>) -> bool {
+        for test in 0..self.tests().len() {
+            let jump = self.jump(test, unknowns, scale);
+            self.set_jump(test, jump);
+            if let (Some(jump), Some(at)) = (jump, self.places(test).shift) {
+                let length = self.record(test).length;
+                unknowns[at] = (unknowns[at] * length).clamp(jump.ends[0], jump.ends[1]) / length;
+            }
+        }
+        self.jumps().next().is_some()
+    }
+
+    /// The jump of a test by what its samples tell of it, each counted in their noise.
+    fn jump(&mut self, test: usize, unknowns: &[f64], scale: Option<f64>) -> Option<Jump> {
+        self.places(test).shift.filter(|_| self.tests()[test].kind == Kind::Blow)?;
+        let curve = self.curve(test, unknowns).ok()?;
+        let (own, record) = (self.own(test, unknowns), self.record(test));
+        let height = own.gain * (curve.value(0.0) - curve.value(-record.step));
+        if height.abs() < FEWEST * record.unit {
+            return None;
+        }
+        let times = record.recorder.times().to_vec();
+        let around = times.partition_point(|time| *time < own.shift);
+        let near = around.saturating_sub(LOOKED)..=around + LOOKED;
+        let near: Vec<Jump> = near.filter_map(|first| Jump::before(first, &times)).collect();
+        let mut costs = Vec::with_capacity(near.len());
+        for jump in &near {
+            self.set_jump(test, Some(*jump));
+            costs.push(sum(&self.left_of(test, curve.as_ref(), own), scale));
+        }
+        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+        let best = near[costs.iter().position(|own| *own <= least)?];
+        // Where noise leaves it open which sample is the first, the clock may be in either step.
+        let weights: Vec<f64> = costs.iter().map(|own| (least - own).exp()).collect();
+        let all: f64 = weights.iter().sum();
+        let mean = |of: &dyn Fn(&Jump) -> f64| {
+            near.iter().zip(&weights).map(|(own, weight)| weight * of(own)).sum::<f64>() / all
+        };
+        let centre = mean(&|own| own.mean);
+        let variance = mean(&|own| own.deviation.powi(2) + (own.mean - centre).powi(2));
+        let is_taken = |at: &usize| weights[*at] > TAKEN;
+        let taken = || (0..near.len()).filter(is_taken);
+        let ends = [near[taken().next()?].ends[0], near[taken().next_back()?].ends[1]];
+        Some(Jump { first: best.first, ends, mean: centre, deviation: variance.sqrt() })
+    }
+}
+
+/// Steps that are less likely than this in parts of the likeliest are left out.
+const TAKEN: f64 = 1e-3;
