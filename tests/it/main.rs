@@ -9,6 +9,7 @@
 
 mod allocations;
 mod auto;
+mod bad_records;
 mod calibration;
 mod campaign;
 mod cli;
@@ -32,6 +33,7 @@ mod error_bars;
 mod examples;
 mod files;
 mod fit;
+mod fit_folders;
 mod formulas;
 mod gallery;
 mod gradients;
@@ -41,6 +43,7 @@ mod layers;
 mod limits;
 mod loading;
 mod measured;
+mod mme_in_scenes;
 mod moduli;
 mod mutated_runs;
 mod on_demand;

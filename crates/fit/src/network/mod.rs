@@ -12,6 +12,9 @@ mod record;
 mod residuals;
 mod starts;
 mod told;
+mod watch;
+
+use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,8 +22,9 @@ pub use self::{
     bands::{Band, Read},
     certainty::{Interval, Source},
     problem::{Curve, Known, Model, NetworkFault, NetworkSettings, Number, Test},
+    watch::{Phase, Search, Watch},
 };
-use self::{certainty::certainty, residuals::Task, starts::starts};
+use self::{certainty::certainty, residuals::Task, starts::starts, watch::Watched};
 use crate::optimum::{Optimum, least_squares};
 
 /// What was found of a test.
@@ -72,6 +76,8 @@ pub struct NetworkFit {
     pub tests: Vec<TestFit>,
     /// Whether the search ended at a minimum.
     pub is_converged: bool,
+    /// Whether who watched it ended it: this is the best that was met so far.
+    pub is_stopped: bool,
     /// How many starts led to it, and how many were solved.
     pub reached: [usize; 2],
     /// Other minima that noise does not tell from it.
@@ -151,13 +157,31 @@ pub fn fit(
     settings: NetworkSettings,
     model: &Model<'_>,
 ) -> Result<NetworkFit, NetworkFault> {
+    fit_watched(numbers, tests, settings, model, &|_| ControlFlow::Continue(()))
+}
+
+/// The same, with somebody who is told of each step and may end the search: then this is the best so far, by the
+/// covariance there, and nothing was left out.
+///
+/// # Errors
+///
+/// What cannot be fitted.
+pub fn fit_watched(
+    numbers: &[Number],
+    tests: &[Test],
+    settings: NetworkSettings,
+    model: &Model<'_>,
+    watch: &Watch<'_>,
+) -> Result<NetworkFit, NetworkFault> {
     checked(numbers, tests)?;
-    let mut fit = search(numbers, tests, settings, model)?;
-    if tests.len() > 1 {
-        for test in 0..tests.len() {
-            fit.tests[test].held_out = held_out(numbers, tests, test, &fit, model);
+    let watched = Watched::new(watch);
+    let mut fit = search((numbers, tests), settings, model, &watched)?;
+    for at in 0..tests.len() {
+        if tests.len() > 1 && watched.begin(Phase::LeftOut { at, of: tests.len() }) {
+            fit.tests[at].held_out = held_out((numbers, tests), at, &fit, model, &watched);
         }
     }
+    fit.is_stopped = watched.is_stopped();
     Ok(fit)
 }
 
@@ -173,13 +197,14 @@ fn checked(numbers: &[Number], tests: &[Test]) -> Result<(), NetworkFault> {
 }
 
 fn search(
-    numbers: &[Number],
-    tests: &[Test],
+    (numbers, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
     model: &Model<'_>,
+    watched: &Watched<'_>,
 ) -> Result<NetworkFit, NetworkFault> {
     let mut task = Task::new(numbers, tests, model)
-        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?;
+        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?
+        .watched(watched);
     let (rows, unknowns) = (task.rows(), task.unknowns());
     if rows <= unknowns {
         return Err(NetworkFault::TooFew { rows, unknowns });
@@ -188,7 +213,12 @@ fn search(
     let mut reason = String::new();
     let bounds = task.bounds();
     let bounds = [&bounds[0][..], &bounds[1][..]];
-    for values in starts(numbers, settings) {
+    let starts = starts(numbers, settings);
+    let of = starts.len();
+    for (at, values) in starts.into_iter().enumerate() {
+        if !watched.begin(Phase::Start { at, of }) {
+            break;
+        }
         match task.begin(&values) {
             Ok(start) => found.extend(least_squares(&task, bounds, &start, None)),
             Err(own) => reason = own,
@@ -201,7 +231,10 @@ fn search(
     let units = units(&task, &first.unknowns, settings.is_robust);
     task.count_in(&units);
     let scale = settings.is_robust.then_some(FAR);
-    let best = least_squares(&task, bounds, &first.unknowns, scale).unwrap_or(first);
+    let again = watched.begin(Phase::Refinement);
+    let again = again.then(|| least_squares(&task, bounds, &first.unknowns, scale)).flatten();
+    let best = again.unwrap_or(first);
+    watched.begin(Phase::Certainty);
     let certainty = certainty(&task, &best, scale, settings.is_profiled);
     let left = task.left(&best.unknowns);
     let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
@@ -224,6 +257,7 @@ fn search(
     let mut fit = NetworkFit {
         tests: task.told(&best.unknowns),
         is_converged: best.is_converged,
+        is_stopped: watched.is_stopped(),
         reached: [reached, found.len()],
         others: others.collect(),
         outliers,
@@ -265,11 +299,11 @@ fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
 
 /// How far the peak of the model is from that of a test to which nothing but its clock and its zero was fitted.
 fn held_out(
-    numbers: &[Number],
-    tests: &[Test],
+    (numbers, tests): (&[Number], &[Test]),
     test: usize,
     fit: &NetworkFit,
     model: &Model<'_>,
+    watched: &Watched<'_>,
 ) -> Option<f64> {
     let others: Vec<usize> = (0..tests.len()).filter(|own| *own != test).collect();
     let rest: Vec<Test> = others.iter().map(|own| tests[*own].clone()).collect();
@@ -277,10 +311,13 @@ fn held_out(
     let begun: Vec<Number> =
         begun.map(|(own, found)| Number { start: found.value, ..own.clone() }).collect();
     let of_rest = |at: usize, values: &[f64]| model(others[at], values);
-    let rest_task = Task::new(&begun, &rest, &of_rest).ok()?;
+    let rest_task = Task::new(&begun, &rest, &of_rest).ok()?.watched(watched);
     let start = rest_task.begin(&begun.iter().map(|own| own.start).collect::<Vec<_>>()).ok()?;
     let bounds = rest_task.bounds();
     let found = least_squares(&rest_task, [&bounds[0], &bounds[1]], &start, None)?;
+    if watched.is_stopped() {
+        return None;
+    }
     let values = rest_task.values(&found.unknowns);
     let task = Task::new(numbers, tests, model).ok()?;
     Some(task.peak_at(test, &values, fit.tests[test].shift)? / fit.tests[test].measured_peak - 1.0)

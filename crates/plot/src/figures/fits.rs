@@ -157,7 +157,7 @@ impl FitFigure {
         let mut left = Vec::new();
         for (at, channel) in shown.iter().enumerate() {
             let colour = CHANNELS[at % CHANNELS.len()];
-            series.extend(overlay(channel, colour, (x.0, y.0)));
+            series.extend(overlay(channel, colour, (x.0, y.0), at == 0));
             left.extend(self.left(channel, colour, (x.0, y.0)));
         }
         if self.is_slow && !own.branches.is_empty() {
@@ -236,12 +236,13 @@ impl FitFigure {
     }
 }
 
-/// The curves of a channel, in these units.
-fn overlay(channel: &FitChannel, colour: usize, (x, y): (f64, f64)) -> Vec<Series> {
+/// The curves of a channel, in these units; what looks alike in all channels has its name in the first one.
+fn overlay(channel: &FitChannel, colour: usize, (x, y): (f64, f64), is_first: bool) -> Vec<Series> {
     let rows = &channel.rows;
     let named = |text: &str| {
         if channel.name.is_empty() { text.to_owned() } else { format!("{}, {text}", channel.name) }
     };
+    let once = |text: &str| if is_first { text.to_owned() } else { String::new() };
     let line = |name: String, of: &dyn Fn(&FitRow) -> f64, colour, pattern| Series {
         name,
         points: rows.iter().map(|own| (own.x / x, of(own) / y)).collect(),
@@ -256,10 +257,10 @@ fn overlay(channel: &FitChannel, colour: usize, (x, y): (f64, f64)) -> Vec<Serie
     let measured = if is_few { Pattern::Points } else { Pattern::Measured };
     let floor = rows.iter().any(|own| own.floor.is_some()).then(|| {
         let of = |own: &FitRow| own.floor.unwrap_or(f64::NAN);
-        line(named("nearest network"), &of, FLOOR, Pattern::Dotted)
+        line(once("nearest network"), &of, FLOOR, Pattern::Dotted)
     });
     let model = line(named("fitted"), &|own| own.model, colour, Pattern::Solid);
-    let measured = line(named("measured"), &|own| own.measured, colour, measured);
+    let measured = line(once("measured"), &|own| own.measured, colour, measured);
     let band = has_band.then(|| Series::band(named("95 % band"), colour, band));
     // Discs stay visible under a line; a dotted line does so over it.
     let both = if is_few { [measured, model] } else { [model, measured] };
@@ -344,11 +345,8 @@ mod tests {
         };
         let chart = OSCILLATION.chart(&own);
         let names: Vec<&str> = chart.series.iter().map(|own| own.name.as_str()).collect();
-        let of = |name: &str| {
-            ["measured", "fitted", "nearest network"].map(|own| format!("{name}, {own}"))
-        };
-        assert_eq!(names[..3], of("storage"));
-        assert_eq!(names[3..6], of("loss"));
+        let expected = ["measured", "storage, fitted", "nearest network", "", "loss, fitted", ""];
+        assert_eq!(names[..6], expected);
         assert_eq!(names[6..], ["branches"]);
         assert_eq!(chart.series[6].stroke.map(|own| own.pattern), Some(Pattern::Stems));
         let below = chart.below.as_ref().unwrap();

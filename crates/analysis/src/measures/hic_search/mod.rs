@@ -5,7 +5,7 @@ mod hump;
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
-use area::Area;
+use area::{Area, Sense};
 use dashpot_dae::Signal;
 
 /// Boxes that are looked into before the search settles for a bound.
@@ -16,7 +16,7 @@ const MOST_FIRST: usize = 64;
 /// is stationary inside, so its value is good to the square of this.
 const SMALLEST: f64 = 1e-8;
 
-/// The interval `[t1, t2]` that maximises `(t2 − t1)(V/(t2 − t1))^2.5`, `V = ∫ |s| dt`.
+/// The interval `[t1, t2]` that maximises `(t2 − t1)(V/(t2 − t1))^2.5`, `V = |∫ s dt|`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Optimum {
     /// The maximum \[unit^2.5·s\].
@@ -30,19 +30,37 @@ pub(crate) struct Optimum {
 /// Finds the largest head injury criterion of a signal over all intervals in the window that are
 /// no longer than `cap`.
 ///
-/// `|s|` is cut into monotone pieces, on which its values and its integral, taken from the exact
+/// The signal of one axis counts with its sign, as SAE J885 and ISO 6487 have it of a channel: a swing back takes from the
+/// area. It is looked at in both senses.
+///
+/// It is cut into monotone pieces, on which its values and its integral, taken from the exact
 /// antiderivative, are bounded. Branch and bound over pairs of ranges of pieces, divided down to single
 /// ones, drops what can hold no more than the best interval so far, and of single pieces what holds no zero of
 /// the derivatives: an optimum lies where
-/// `|s(t1)|` and `|s(t2)|` are 0.6 times the mean, at a jump or an end of the window, or, where the
-/// cap is active, where `|s(t1)| = |s(t2)|`. Nothing is sampled, so no optimum is missed. A signal with a single
+/// `s(t1)` and `s(t2)` are 0.6 times the mean, at a jump or an end of the window, or, where the
+/// cap is active, where `s(t1) = s(t2)`. Nothing is sampled, so no optimum is missed. A signal with a single
 /// hump needs no more than a search for its level.
 pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
-    let area = Area::new(signal, window);
-    if let Some(found) = hump::optimum(&area, cap) {
-        return found;
+    let area = Area::new(signal, window, Sense::Magnitude);
+    if !area.changes_sign() {
+        return hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap));
     }
-    searched(&area, window, cap)
+    let [one, other] = [1.0, -1.0]
+        .map(|sign| searched(&Area::new(signal, window, Sense::Along(sign)), window, cap));
+    let threshold = one.threshold.max(other.threshold);
+    Optimum { threshold, ..if one.value >= other.value { one } else { other } }
+}
+
+/// The same of the magnitude of a signal that has both signs in the window, as of a resultant; `None` of one that has
+/// not, whose magnitude counts as the signal does.
+pub(crate) fn optimum_of_magnitude(
+    signal: &Signal,
+    window: (f64, f64),
+    cap: f64,
+) -> Option<Optimum> {
+    let area = Area::new(signal, window, Sense::Magnitude);
+    let found = || hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap));
+    area.changes_sign().then(found)
 }
 
 /// The same for a signal that is positive in the window and rises to one place, and falls behind it; either may be
@@ -77,6 +95,10 @@ struct Side {
 impl Side {
     fn length(self) -> f64 {
         self.to - self.from
+    }
+
+    fn ends(self) -> (f64, f64) {
+        (self.from, self.to)
     }
 
     fn middle(self) -> f64 {
@@ -215,7 +237,7 @@ impl Search<'_> {
             Family::Free(first, last) => {
                 let shortest = (last.from - first.to).max(0.0);
                 let longest = (last.to - first.from).min(self.cap);
-                let area = self.area.between(first.from, last.to);
+                let area = self.area.most(first.ends(), last.ends());
                 let largest = self.area.largest();
                 let by_height = criterion(largest * longest, longest);
                 // A given area weighs most in the shortest time in which it has room.
@@ -223,7 +245,8 @@ impl Search<'_> {
                 by_height.min(criterion(area, shortest))
             }
             Family::Capped(side) => {
-                criterion(self.area.between(side.from, side.to + self.cap), self.cap)
+                let far = (side.from + self.cap, side.to + self.cap);
+                criterion(self.area.most(side.ends(), far), self.cap)
             }
         };
         if bound > self.best.value * (1.0 + 1e-14) {
@@ -242,8 +265,8 @@ impl Search<'_> {
         }
         let mean = self.mean(first, last);
         let critical = Range { low: 0.6 * mean.low, high: 0.6 * mean.high };
-        // A later start loses |s(t1)| and shortens the interval; the criterion rises with t1 while
-        // |s(t1)| < 0.6 mean, and with t2 while |s(t2)| > 0.6 mean.
+        // A later start loses s(t1) and shortens the interval; the criterion rises with t1 while
+        // s(t1) < 0.6 mean, and with t2 while s(t2) > 0.6 mean.
         let starts = (first.length() > 0.0).then(|| self.area.range(first.from, first.to));
         if let Some(height) = starts {
             if height.high <= critical.low {
@@ -327,9 +350,9 @@ impl Search<'_> {
         let longest = last.to - first.from;
         let shortest = last.from - first.to;
         let low =
-            if shortest > 0.0 { self.area.between(first.to, last.from) / longest } else { 0.0 };
+            if shortest > 0.0 { self.area.least(first.ends(), last.ends()) / longest } else { 0.0 };
         let high = if shortest > 0.0 {
-            (self.area.between(first.from, last.to) / shortest).min(largest)
+            (self.area.most(first.ends(), last.ends()) / shortest).min(largest)
         } else {
             largest
         };

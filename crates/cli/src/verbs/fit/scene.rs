@@ -2,10 +2,10 @@
 
 use dashpot_analysis::Solve as _;
 use dashpot_fit::network::{
-    Band, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Test, fit,
+    Band, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Search, Test, fit_watched,
 };
 use dashpot_scene::{
-    ScatteredNumber, Scene, Tunables, Variation, read,
+    Posed, ScatteredNumber, Scene, Tunables, Variation, read,
     units::{parse_quantity, si_unit},
 };
 
@@ -14,6 +14,7 @@ use super::{
     asked::{Asked, FLAG},
     shown::{Shown, shown},
     solver::{Poser, Solver},
+    watched::Progress,
 };
 use crate::{
     args::Switch,
@@ -62,6 +63,10 @@ pub(super) struct FittedScene {
     pub(super) shown: Vec<Shown>,
     pub(super) measures: Vec<Measured>,
     pub(super) fit: NetworkFit,
+    /// The network with what was found, where it can be solved.
+    pub(super) fitted: Option<Posed>,
+    /// What the command line asks for, in words.
+    pub(super) asked: Vec<(&'static str, String)>,
     tunables: Tunables,
 }
 
@@ -109,7 +114,8 @@ pub(super) fn fitted(
         is_robust: arguments.robust == Switch::On,
         is_profiled: arguments.profile,
     };
-    let fit = searched(&begun, &tests, settings, (&posers, &curves));
+    let progress = Progress::new(tests.len(), terminal);
+    let fit = searched((&begun, &tests), settings, (&posers, &curves), &progress);
     let mut fit = fit.map_err(|fault| wrong(&fault, &curves))?;
     let fault = |reason| CliError::Fit { text: "scene".to_owned(), reason };
     let means: Vec<f64> = list(tests[0].known.iter().map(|own| own.mean));
@@ -122,9 +128,24 @@ pub(super) fn fitted(
     let each = numbers.iter().zip(&mut fit.numbers).filter(|own| is_shown(own.0));
     each.for_each(|own| own.1.ends = [None; 2]);
     let whole = Poser { input, tunables: &tunables, numbers: list(&numbers), set: set.clone() };
-    let measures = measures(&whole, &fit);
+    let measures = if fit.is_stopped { Vec::new() } else { measures(&whole, &fit) };
+    let found: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
+    let fitted = whole.posed(&found).ok();
+    let asked = arguments.in_words();
     drop(posers);
-    Ok(FittedScene { scene, numbers, curves, known, tests, shown, measures, fit, tunables })
+    Ok(FittedScene {
+        scene,
+        numbers,
+        curves,
+        known,
+        tests,
+        shown,
+        measures,
+        fit,
+        fitted,
+        asked,
+        tunables,
+    })
 }
 
 /// What is set but for numbers that are fitted: it would stand above what is written into the text.
@@ -140,10 +161,10 @@ fn unvaried(
 
 /// Searches the numbers: with one compiled form of each test where full runs agree with it at what was found.
 fn searched(
-    begun: &[Number],
-    tests: &[Test],
+    (begun, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
     (posers, curves): (&[Poser<'_>], &[(Asked, MeasuredCurve)]),
+    progress: &Progress,
 ) -> Result<NetworkFit, NetworkFault> {
     let point = |own: &'_ Poser<'_>, values: &[f64]| own.point(values);
     let points = posers.iter().map(|own| move |values: &[f64]| point(own, values));
@@ -158,7 +179,11 @@ fn searched(
     });
     let solvers: Vec<Solver<'_>> = list(solvers);
     let model = |test: usize, values: &[f64]| solvers[test].curve(values);
-    let found = fit(begun, tests, settings, &model)?;
+    let watch = |own: Search| progress.show(own);
+    let found = fit_watched(begun, tests, settings, &model, &watch)?;
+    if found.is_stopped {
+        return Ok(found);
+    }
     let is_alike = |(at, own): (usize, &Solver<'_>)| {
         let values = found.numbers.iter().map(|own| own.value);
         let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
@@ -166,7 +191,7 @@ fn searched(
     };
     // All are asked: each that does not agree goes on with full runs.
     let unlike = solvers.iter().enumerate().filter(|own| !is_alike(*own)).count();
-    if unlike == 0 { Ok(found) } else { fit(begun, tests, settings, &model) }
+    if unlike == 0 { Ok(found) } else { fit_watched(begun, tests, settings, &model, &watch) }
 }
 
 /// Within which values a number that was measured besides is looked for.

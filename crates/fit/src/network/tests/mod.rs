@@ -4,6 +4,7 @@ use super::*;
 
 mod entangled;
 mod filtered;
+mod watched;
 
 /// A mass that strikes a Maxwell element at 1 m/s: `F″ + (k/c) F′ + (k/m) F = 0`, `F′(0) = k v`.
 struct Pulse {
