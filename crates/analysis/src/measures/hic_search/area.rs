@@ -114,6 +114,12 @@ impl<'a> Area<'a> {
 
     /// Whether the signal has both signs in the window, beyond rounding.
     pub(super) fn changes_sign(&self) -> bool {
+        let [with, against] = self.of_signs();
+        with.min(against) > ROUNDING * with.max(against)
+    }
+
+    /// The area where the signal is positive, and where it is negative.
+    pub(super) fn of_signs(&self) -> [f64; 2] {
         let mut sums = [0.0_f64; 2];
         let ends = self.parts.iter().skip(1).map(|own| own.start);
         for (part, end) in self.parts.iter().zip(ends.chain(self.knots.last().copied())) {
@@ -121,7 +127,7 @@ impl<'a> Area<'a> {
             let own: f64 = until.iter().sum::<f64>() - part.before.iter().sum::<f64>();
             sums[usize::from(part.sign < 0.0)] += own;
         }
-        sums[0].min(sums[1]) > ROUNDING * sums[0].max(sums[1])
+        sums
     }
 
     /// Where the monotone pieces meet, and both ends.

@@ -27,6 +27,13 @@ pub(crate) struct Optimum {
     pub threshold: f64,
 }
 
+impl Optimum {
+    /// That of nothing.
+    fn none(window: (f64, f64)) -> Self {
+        Self { value: 0.0, interval: (window.0, window.0), threshold: 0.0 }
+    }
+}
+
 /// Finds the largest head injury criterion of a signal over all intervals in the window that are
 /// no longer than `cap`.
 ///
@@ -42,13 +49,16 @@ pub(crate) struct Optimum {
 /// hump needs no more than a search for its level.
 pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
     let area = Area::new(signal, window, Sense::Magnitude);
+    let [with, against] = area.of_signs();
     if !area.changes_sign() {
         return hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap));
     }
-    let [one, other] = [1.0, -1.0]
-        .map(|sign| searched(&Area::new(signal, window, Sense::Along(sign)), window, cap));
-    let threshold = one.threshold.max(other.threshold);
-    Optimum { threshold, ..if one.value >= other.value { one } else { other } }
+    // The sense with more area first: what the other one has to exceed then ends its search at once.
+    let first = if with >= against { 1.0 } else { -1.0 };
+    let in_sense = |best: Optimum, sign: f64| {
+        better(&Area::new(signal, window, Sense::Along(sign)), cap, best)
+    };
+    [first, -first].into_iter().fold(Optimum::none(window), in_sense)
 }
 
 /// The same of the magnitude of a signal that has both signs in the window, as of a resultant; `None` of one that has
@@ -72,13 +82,12 @@ pub(crate) fn optimum_of_hump(signal: &Signal, window: (f64, f64), top: f64, cap
 
 /// The same by a search through all intervals.
 fn searched(area: &Area<'_>, window: (f64, f64), cap: f64) -> Optimum {
-    let mut search = Search {
-        area,
-        cap,
-        best: Optimum { value: 0.0, interval: (window.0, window.0), threshold: 0.0 },
-        open: BinaryHeap::new(),
-        visited: 0,
-    };
+    better(area, cap, Optimum::none(window))
+}
+
+/// The same, if it exceeds another one.
+fn better(area: &Area<'_>, cap: f64, best: Optimum) -> Optimum {
+    let mut search = Search { area, cap, best, open: BinaryHeap::new(), visited: 0 };
     if area.largest() > 0.0 && cap > 0.0 {
         search.run();
     }
@@ -189,7 +198,8 @@ impl Search<'_> {
             }
             self.visited += 1;
             if self.visited > MOST_BOXES {
-                self.best.threshold = candidate.bound - self.best.value;
+                let missed = candidate.bound - self.best.value;
+                self.best.threshold = self.best.threshold.max(missed);
                 break;
             }
             match candidate.family {
