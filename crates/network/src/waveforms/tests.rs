@@ -1,5 +1,7 @@
 use std::f64::consts::PI;
 
+use dashpot_dae::Piece;
+
 use super::*;
 
 #[test]

@@ -124,37 +124,32 @@ impl KindReader<'_> {
         let code = |own: &MmeChannel| own.code.as_ref().map(|own| own.text().to_owned());
         let told = |own: &MmeChannel| code(own).unwrap_or_else(|| own.channel.name().to_owned());
         let fits = |own: &&MmeChannel| own.channel.dimension() == self.driven;
-        let found = match wanted {
-            Some(item) => {
-                let owner = format!("`{CHANNEL}`");
-                let name = text_of(item, &owner, self.quantities.faults)?;
-                let is_it = |own: &&MmeChannel| {
-                    let code = code(own).is_some_and(|own| own.eq_ignore_ascii_case(name));
-                    code || own.channel.name().eq_ignore_ascii_case(name)
-                };
-                let Some(found) = channels.iter().find(is_it) else {
-                    let known = channels.iter().map(told).collect();
-                    let (family, name) = (CHANNEL, name.to_owned());
-                    self.refuse(item.place, Fault::UnknownName { family, name, known });
-                    return None;
-                };
-                found
-            }
-            None => {
-                let all: Vec<&MmeChannel> = channels.iter().filter(fits).collect();
-                let [one] = all[..] else {
-                    let (count, known) = (all.len(), channels.iter().map(told));
-                    let known: Vec<String> = known.collect();
-                    let message = format!(
-                        "{count} of its channels measure what is driven here; it has {}",
-                        known.join(", ")
-                    );
-                    let help = "name one: `{ file = …, channel = \"…\" }`".to_owned();
-                    self.refuse(place, Fault::odd(message, help));
-                    return None;
-                };
-                one
-            }
+        let known = || channels.iter().map(told).collect::<Vec<String>>();
+        let found = if let Some(item) = wanted {
+            let name = text_of(item, &format!("`{CHANNEL}`"), self.quantities.faults)?;
+            let is_it = |own: &&MmeChannel| {
+                let code = code(own).is_some_and(|own| own.eq_ignore_ascii_case(name));
+                code || own.channel.name().eq_ignore_ascii_case(name)
+            };
+            let Some(found) = channels.iter().find(is_it) else {
+                let (family, name) = (CHANNEL, name.to_owned());
+                self.refuse(item.place, Fault::UnknownName { family, name, known: known() });
+                return None;
+            };
+            found
+        } else {
+            let all: Vec<&MmeChannel> = channels.iter().filter(fits).collect();
+            let [one] = all[..] else {
+                let message = format!(
+                    "{} of its channels measure what is driven here; it has {}",
+                    all.len(),
+                    known().join(", ")
+                );
+                let help = "name one: `{ file = …, channel = \"…\" }`";
+                self.refuse(place, Fault::odd(message, help));
+                return None;
+            };
+            one
         };
         if !fits(&found) {
             let is = dashpot_units::si_unit(found.channel.dimension());
