@@ -1,5 +1,5 @@
-"""Makes the records of docs/fit.md: a gel of three modes in oscillation, three drops on a pad, one through a filter, and
-the pad pressed and let go of.
+"""Makes the records of docs/fit.md and docs/cannot-tell.md: a gel of three modes in oscillation, three drops on a pad, one
+through a filter, the pad pressed and let go of, and a hold after a ramp.
 
 The pad is a Zener element of 30 kN/m, 60 kN/m and 200 N s/m under 4 kg; its equations are integrated here by the classical
 Runge-Kutta method, until the force falls to zero. Noise has a fixed seed.
@@ -84,11 +84,29 @@ def pressed():
     return ["way [mm],force [N]"] + [f"{way:.3f},{force:.2f}" for way, force in rows]
 
 
+def hold():
+    """A strain that rises to 10 % within 0.5 s and is held; the stress of a foam, to half a percent."""
+    ramp, strain, modes = 0.5, 0.1, [(5e-3, 600.0), (12.0, 300.0)]
+    rows = ["t [s],strain [%],stress [kPa]"]
+    times = [0.05 * at for at in range(61)] + [3 + 0.5 * at for at in range(1, 115)]
+    for time in times:
+        loaded = min(time, ramp)
+        stress = 400.0 * strain * loaded / ramp
+        for relaxation, modulus in modes:
+            grown = modulus * relaxation * strain / ramp * -math.expm1(-loaded / relaxation)
+            stress += grown * math.exp(-max(time - ramp, 0.0) / relaxation)
+        stress += 0.3 * stream.gauss(0, 1)
+        rows.append(f"{time:.2f},{100 * strain * loaded / ramp:.3f},{stress:.2f}")
+    return rows
+
+
 records = [("dma", gel()), ("low", drop(2.0, 2.0e-3, 0.7)), ("high", drop(3.2, 3.1e-3, -0.4))]
 stream = random.Random(60)
 records.append(("class60", drop(3.25, 20.4e-3, 0.5, 600, 60)))
 stream = random.Random(7)
 records.append(("pressed", pressed()))
+stream = random.Random(5)
+records.append(("hold", hold()))
 for name, rows in records:
     with open(f"{name}.csv", "w") as file:
         file.write("\n".join(rows) + "\n")

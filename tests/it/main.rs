@@ -9,6 +9,7 @@
 
 mod allocations;
 mod auto;
+mod bad_records;
 mod calibration;
 mod campaign;
 mod cli;
@@ -33,8 +34,9 @@ mod error_bars;
 mod examples;
 mod files;
 mod fit;
-mod floors;
+mod fit_folders;
 mod fit_mixed;
+mod floors;
 mod formulas;
 mod gallery;
 mod gradients;
@@ -44,6 +46,7 @@ mod layers;
 mod limits;
 mod loading;
 mod measured;
+mod mme_in_scenes;
 mod moduli;
 mod mutated_runs;
 mod on_demand;

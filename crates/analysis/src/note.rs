@@ -63,6 +63,8 @@ pub enum Note {
     BeyondRange,
     /// It has a value at some tolerances only.
     ComesAndGoes,
+    /// The signal changes its sign, and of its magnitude the value would be this, in the unit of the measure.
+    LargerByMagnitude(f64),
     /// Not determined: it hangs on what is not followed.
     NotFollowed,
     /// Not determined: its error, in this unit, would be this.
@@ -110,6 +112,7 @@ impl Note {
             Self::Infinite(_) => "infinite",
             Self::BeyondRange => "beyond-range",
             Self::ComesAndGoes => "comes-and-goes",
+            Self::LargerByMagnitude(_) => "larger-by-magnitude",
             Self::NotFollowed => "not-followed",
             Self::LargeError(..) => "large-error",
             Self::IdleSlider(..) => "idle-slider",
@@ -164,6 +167,14 @@ impl fmt::Display for Note {
             }
             Self::BeyondRange => "beyond the range of double precision",
             Self::ComesAndGoes => "it has a value at some tolerances only",
+            Self::LargerByMagnitude(value) => {
+                let value = quantity(*value, "s");
+                let value = value.trim_end_matches(" s");
+                return write!(
+                    f,
+                    "it swings back, which takes from this: of its magnitude {value}"
+                );
+            }
             Self::NotFollowed => "not determined: it hangs on what is not followed",
             Self::LargeError(error, unit) => {
                 return write!(f, "not determined: its error would be {}", quantity(*error, unit));

@@ -56,9 +56,13 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
 
 /// The drawing of a scene for a page, unless there is too much to be drawn.
 pub(crate) fn figure(scene: &Scene) -> Option<ReportFigure> {
-    let is_drawn = scene.network.connections().len() <= MOST_DRAWN;
-    let drawing = || sketch(&scene.network, scene.run.duration).svg();
-    is_drawn.then(|| ReportFigure::of_sketch("The network", drawing()))
+    of_network(&scene.network, scene.run.duration)
+}
+
+/// The drawing of a network for a page, likewise.
+pub(crate) fn of_network(network: &Network, duration: f64) -> Option<ReportFigure> {
+    let is_drawn = network.connections().len() <= MOST_DRAWN;
+    is_drawn.then(|| ReportFigure::of_sketch("The network", sketch(network, duration).svg()))
 }
 
 /// A network with what its effects put into it; layers stay models, as they are written.

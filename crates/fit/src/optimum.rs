@@ -4,7 +4,7 @@
 //! gradients and steps as all rows, and it decomposes no more than that. A robust sum is a plain one of residuals that
 //! are drawn in.
 
-use std::convert::Infallible;
+use std::cell::RefCell;
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
@@ -19,6 +19,12 @@ pub trait Residuals {
 
     /// Their derivatives, one column for each unknown.
     fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64>;
+
+    /// Told before each step how many were made and what is left at the best of them, half the sum of squares or the
+    /// robust sum; returns whether the search has to end there.
+    fn is_stopped(&self, _steps: usize, _cost: f64) -> bool {
+        false
+    }
 }
 
 /// Where the search ended.
@@ -46,12 +52,17 @@ pub fn least_squares(
     start: &[f64],
     robust_scale: Option<f64>,
 ) -> Option<Optimum> {
-    let bounded = Bounded { problem, lower: lower.to_vec(), upper: upper.to_vec(), robust_scale };
+    let best = RefCell::new(Best { steps: 0, cost: f64::INFINITY, unknowns: start.to_vec() });
+    let (low, high) = (lower.to_vec(), upper.to_vec());
+    let bounded = Bounded { problem, lower: low, upper: high, robust_scale, best: &best };
     let solver = TrustRegionReflective::new()
         .with_absolute_scaled_gradient_tolerance(GRADIENT)
         .with_relative_cost_change_tolerance(COST_CHANGE);
     let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
-    let own = own.ok()?;
+    let Ok(own) = own else {
+        let Best { cost, unknowns, .. } = best.into_inner();
+        return cost.is_finite().then_some(Optimum { unknowns, cost, is_converged: false });
+    };
     let (unknowns, cost) = (own.param().clone(), own.cost());
     let code = own.report.termination.code();
     let is_converged = match code {
@@ -99,12 +110,25 @@ fn is_settled(
     step.is_some_and(|step| 0.5 * step.dot(&right) <= SETTLED * cost)
 }
 
+/// The best that was met so far.
+struct Best {
+    steps: usize,
+    cost: f64,
+    unknowns: Vec<f64>,
+}
+
+/// Why a search ended before its end.
+#[derive(Debug, thiserror::Error)]
+#[error("stopped")]
+struct Stopped;
+
 /// The problem as the optimiser wants it.
 struct Bounded<'p> {
     problem: &'p dyn Residuals,
     lower: Vec<f64>,
     upper: Vec<f64>,
     robust_scale: Option<f64>,
+    best: &'p RefCell<Best>,
 }
 
 impl Bounded<'_> {
@@ -137,12 +161,17 @@ impl Constraints for Bounded<'_> {
 impl Residual for Bounded<'_> {
     type Param = Vec<f64>;
     type Output = Vec<f64>;
-    type Error = Infallible;
+    type Error = Stopped;
 
-    fn residual(&self, unknowns: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
+    fn residual(&self, unknowns: &Vec<f64>) -> Result<Vec<f64>, Stopped> {
         let mut all = vec![0.0; unknowns.len() + 1];
         let left = self.drawn_in(unknowns).0;
-        all[0] = left.iter().map(|own| own * own).sum::<f64>().sqrt();
+        let square = left.iter().map(|own| own * own).sum::<f64>();
+        all[0] = square.sqrt();
+        let mut best = self.best.borrow_mut();
+        if 0.5 * square < best.cost {
+            (best.cost, best.unknowns) = (0.5 * square, unknowns.clone());
+        }
         Ok(all)
     }
 }
@@ -150,7 +179,15 @@ impl Residual for Bounded<'_> {
 impl Jacobian for Bounded<'_> {
     type Jacobian = DenseMatrix;
 
-    fn jacobian(&self, unknowns: &Vec<f64>) -> Result<DenseMatrix, Infallible> {
+    fn jacobian(&self, unknowns: &Vec<f64>) -> Result<DenseMatrix, Stopped> {
+        let (steps, cost) = {
+            let mut best = self.best.borrow_mut();
+            best.steps += 1;
+            (best.steps - 1, best.cost)
+        };
+        if self.problem.is_stopped(steps, cost) {
+            return Err(Stopped);
+        }
         // What was solved last is asked for first.
         let (left, slopes) = self.drawn_in(unknowns);
         let own = self.problem.jacobian(unknowns);

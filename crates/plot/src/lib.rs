@@ -4,6 +4,7 @@
 //! - [`figures`]: the register of figures that are drawn from the [`RunSeries`] of one or several runs.
 //! - [`figures::model`]: the register of figures that are drawn from the [`ModelSeries`] of linear models, and what a
 //!   rheometer measures on them.
+//! - [`figures::FIT_FIGURES`]: the register of figures that are drawn from the [`FitSeries`] of fits.
 //! - [`Sketch`]: a network of masses, springs, dashpots and supports, as [SVG](Sketch::svg) and as [text](Sketch::text).
 //! - [`Map`]: a value over two quantities, as [SVG](Map::svg).
 //! - [`Report`]: one self-contained HTML page.
@@ -30,9 +31,9 @@ pub use figures::model::{
     RheometerSeries,
 };
 pub use figures::{
-    ElementSeries, EnergySeries, Figure, MeasuredSeries, NodeSeries, Of, PrecisionCurve,
-    PrecisionSeries, RunLimit, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
-    VibrationSeries,
+    ElementSeries, EnergySeries, Figure, FitChannel, FitFigure, FitQuantity, FitRow, FitSeries,
+    MeasuredSeries, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit, RunMarker,
+    RunMarkerKind, RunSeries, VibrationCurve, VibrationSeries,
 };
 pub use map::{Map, MapLimit, Side};
 pub use report::{Report, ReportFigure, Table};

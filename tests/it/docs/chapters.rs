@@ -3,7 +3,7 @@
 use super::shown;
 
 /// Chapters with how many texts and figures they show.
-const CHAPTERS: [(&str, usize, usize); 17] = [
+const CHAPTERS: [(&str, usize, usize); 20] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
@@ -15,6 +15,9 @@ const CHAPTERS: [(&str, usize, usize); 17] = [
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
     ("signal", 5, 2),
+    ("tutorial-drop-test", 3, 1),
+    ("tutorial-master-curve", 3, 1),
+    ("cannot-tell", 6, 1),
     ("jobs/protector", 2, 0),
     ("jobs/parcel", 2, 2),
     ("jobs/liners", 4, 2),

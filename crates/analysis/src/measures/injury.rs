@@ -6,7 +6,8 @@ use std::sync::Arc;
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW, hic_search::optimum,
+    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
+    hic_search::{optimum, optimum_of_magnitude},
 };
 use crate::{Note, Solution, VelocityJump};
 
@@ -81,9 +82,10 @@ impl MeasureKind for SeverityIndex {
 
 parameters! {
     /// The head injury criterion of what an accelerometer on a body reads,
-    /// `HIC = max (t2 − t1) [∫ |a|/g0 dt / (t2 − t1)]^2.5` \[s\] over all intervals `[t1, t2]` no
+    /// `HIC = max (t2 − t1) [|∫ a/g0 dt| / (t2 − t1)]^2.5` \[s\] over all intervals `[t1, t2]` no
     /// longer than a cap. The window reported is the interval found. Where the speed jumps, it is
-    /// infinite.
+    /// infinite. On its one axis the acceleration counts with its sign, as that of a single channel does, so that a swing
+    /// back takes from the mean; where that of the magnitude, as of a resultant, is larger, a note tells it.
     ///
     /// | symbol | field | unit | range    |
     /// |--------|-------|------|----------|
@@ -128,9 +130,19 @@ impl MeasureKind for Hic {
             growth * (error * length + last * shift) + found.threshold + 1e-13 * found.value
         });
         let reading = Reading::over(&span, found.value, error).changing(growth * last);
+        let magnitude = optimum_of_magnitude(&acceleration, span.window(), self.cap);
+        let least = error.unwrap_or(0.0).max(SAME * found.value);
+        let larger = magnitude.map(|own| own.value).filter(|own| own - found.value > least);
+        let reading = match larger {
+            Some(own) => reading.noting(Note::LargerByMagnitude(own)),
+            None => reading,
+        };
         Ok(Reading { window: Some(found.interval), ..reading })
     }
 }
+
+/// A criterion of the magnitude that is larger by no more than this part is the same.
+const SAME: f64 = 1e-6;
 
 /// Declares the criterion over intervals of at most so many seconds.
 macro_rules! within {

@@ -3,6 +3,7 @@
 mod branches;
 mod certainty;
 mod contradiction;
+mod curves;
 mod floor;
 mod kernel;
 mod nearest;
@@ -17,6 +18,7 @@ pub use self::{
     branches::Against,
     certainty::{Band, Range},
     contradiction::Contradiction,
+    curves::{FittedCurve, FittedRow, Kind},
     floor::Misfit,
     record::{Form, Record, RecordFault},
     spectrum::Spectrum,
@@ -97,6 +99,8 @@ pub struct LinearFit {
     pub floor_unshifted: Option<Misfit>,
     /// Each record.
     pub records: Vec<RecordFit>,
+    /// All rows beside what was fitted to them.
+    pub curves: Vec<FittedCurve>,
     /// Equilibrium modulus, or instantaneous compliance, where no branch is slower than
     /// `slowest`.
     pub spring: Range,
@@ -160,6 +164,7 @@ pub fn fit(records: &[Record], settings: LinearSettings) -> Result<LinearFit, Li
         floor,
         misfit: Misfit::of_vector(&few.residual),
         floor_unshifted,
+        curves: curves::curves(records, &problem, [&left, &few.residual], band.as_ref()),
         records: each(records, &shifts, &problem, [&left, &few.residual]),
         spring: spring.around(few.spectrum.spring),
         sum: sum.around(few.spectrum.spring + branches),

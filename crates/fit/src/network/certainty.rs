@@ -87,7 +87,8 @@ pub(super) fn certainty(
         let near = |bound: f64| (value / bound).ln().abs() < ON_BOUND;
         let is_on_bound = near(number.low) || near(number.high);
         let column: Vec<f64> = covariance.column(at).iter().copied().collect();
-        let is_curved = || valley.departs(at, &column).is_none_or(|by| by > CURVED);
+        let is_curved =
+            || !task.is_ended() && valley.departs(at, &column).is_none_or(|by| by > CURVED);
         let factor = (quantile * own).exp();
         let is_enough = || match profile {
             Profile::Never => true,

@@ -14,6 +14,9 @@ mod repeats;
 mod residuals;
 mod starts;
 mod told;
+mod watch;
+
+use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -22,8 +25,9 @@ pub use self::{
     certainty::{Interval, Source},
     problem::{Curve, Kind, Known, Model, NetworkFault, NetworkSettings, Number, Profile, Test},
     repeats::Scatter,
+    watch::{Phase, Search, Watch},
 };
-use self::{certainty::certainty, residuals::Task, starts::starts};
+use self::{certainty::certainty, residuals::Task, starts::starts, watch::Watched};
 use crate::optimum::{Optimum, least_squares, sum};
 
 /// What was found of a test.
@@ -92,6 +96,8 @@ pub struct NetworkFit {
     pub tests: Vec<TestFit>,
     /// Whether the search ended at a minimum.
     pub is_converged: bool,
+    /// Whether who watched it ended it: this is the best that was met so far.
+    pub is_stopped: bool,
     /// How many starts led to it, and how many were solved.
     pub reached: [usize; 2],
     /// Other minima that noise does not tell from it.
@@ -173,13 +179,31 @@ pub fn fit(
     settings: NetworkSettings,
     model: &Model<'_>,
 ) -> Result<NetworkFit, NetworkFault> {
+    fit_watched(numbers, tests, settings, model, &|_| ControlFlow::Continue(()))
+}
+
+/// The same, with somebody who is told of each step and may end the search: then this is the best so far, by the
+/// covariance there, and nothing was left out.
+///
+/// # Errors
+///
+/// What cannot be fitted.
+pub fn fit_watched(
+    numbers: &[Number],
+    tests: &[Test],
+    settings: NetworkSettings,
+    model: &Model<'_>,
+    watch: &Watch<'_>,
+) -> Result<NetworkFit, NetworkFault> {
     checked(numbers, tests)?;
-    let mut fit = search(numbers, tests, settings, model)?;
-    if tests.len() > 1 {
-        for test in 0..tests.len() {
-            fit.tests[test].held_out = held_out(numbers, tests, test, &fit, model);
+    let watched = Watched::new(watch);
+    let mut fit = search((numbers, tests), settings, model, &watched)?;
+    for at in 0..tests.len() {
+        if tests.len() > 1 && watched.begin(Phase::LeftOut { at, of: tests.len() }) {
+            fit.tests[at].held_out = held_out((numbers, tests), at, &fit, model, &watched);
         }
     }
+    fit.is_stopped = watched.is_stopped();
     Ok(fit)
 }
 
@@ -195,13 +219,14 @@ fn checked(numbers: &[Number], tests: &[Test]) -> Result<(), NetworkFault> {
 }
 
 fn search(
-    numbers: &[Number],
-    tests: &[Test],
+    (numbers, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
     model: &Model<'_>,
+    watched: &Watched<'_>,
 ) -> Result<NetworkFit, NetworkFault> {
     let mut task = Task::new(numbers, tests, model)
-        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?;
+        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?
+        .watched(watched);
     let (rows, unknowns) = (task.rows(), task.unknowns());
     if rows <= unknowns {
         return Err(NetworkFault::TooFew { rows, unknowns });
@@ -210,7 +235,12 @@ fn search(
     let mut reason = String::new();
     let bounds = task.bounds();
     let bounds = [&bounds[0][..], &bounds[1][..]];
-    for values in starts(numbers, settings) {
+    let starts = starts(numbers, settings);
+    let of = starts.len();
+    for (at, values) in starts.into_iter().enumerate() {
+        if !watched.begin(Phase::Start { at, of }) {
+            break;
+        }
         match task.begin(&values) {
             Ok(start) => found.extend(least_squares(&task, bounds, &start, None)),
             Err(own) => reason = own,
@@ -221,7 +251,9 @@ fn search(
         return Err(NetworkFault::Unsolved { reason });
     };
     let scale = settings.is_robust.then_some(FAR);
+    watched.begin(Phase::Refinement);
     let best = settled(&mut task, first, scale);
+    watched.begin(Phase::Certainty);
     let certainty = certainty(&task, &best, scale, settings.profile);
     let left = task.left(&best.unknowns);
     let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
@@ -244,6 +276,7 @@ fn search(
     let mut fit = NetworkFit {
         tests: task.told(&best.unknowns),
         is_converged: best.is_converged,
+        is_stopped: watched.is_stopped(),
         reached: [reached, found.len()],
         others: others.collect(),
         outliers,
@@ -268,6 +301,9 @@ fn settled(task: &mut Task<'_>, first: Optimum, scale: Option<f64>) -> Optimum {
         let units = units(task, &best.unknowns, scale.is_some());
         task.count_in(&units);
         let has_jumps = task.place_jumps(&mut best.unknowns, scale);
+        if task.is_ended() {
+            break;
+        }
         let [low, high] = task.bounds();
         best = least_squares(task, [&low, &high], &best.unknowns, scale).unwrap_or(best);
         if !has_jumps {
@@ -304,11 +340,11 @@ fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
 
 /// How far the model is from a test where the numbers are fitted to all others.
 fn held_out(
-    numbers: &[Number],
-    tests: &[Test],
+    (numbers, tests): (&[Number], &[Test]),
     test: usize,
     fit: &NetworkFit,
     model: &Model<'_>,
+    watched: &Watched<'_>,
 ) -> Option<HeldOut> {
     // A record of the same test tells of it what it tells itself.
     let is_other = |own: &usize| {
@@ -323,8 +359,11 @@ fn held_out(
     let rest: Vec<Test> = others.iter().map(|own| tests[*own].clone()).collect();
     let found = fit.numbers.iter().map(|own| own.value).collect::<Vec<_>>();
     let of_rest = |at: usize, values: &[f64]| model(others[at], values);
-    let task = Task::new(numbers, &rest, &of_rest).ok()?;
+    let task = Task::new(numbers, &rest, &of_rest).ok()?.watched(watched);
     let unknowns = nearest(&task, &found)?;
+    if watched.is_stopped() {
+        return None;
+    }
     // What was measured of it besides stands as it was measured.
     let means = tests[test].known.iter().map(|own| own.mean);
     let values: Vec<f64> = task.values(&unknowns).into_iter().chain(means).collect();

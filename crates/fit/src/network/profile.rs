@@ -44,6 +44,10 @@ impl Held<'_> {
 }
 
 impl Residuals for Held<'_> {
+    fn is_stopped(&self, steps: usize, cost: f64) -> bool {
+        self.problem.is_stopped(steps, cost)
+    }
+
     fn residual(&self, unknowns: &[f64]) -> Vec<f64> {
         self.problem.residual(&self.whole(unknowns))
     }
@@ -110,7 +114,7 @@ impl<'v, 't> Valley<'v, 't> {
         let mut distance = step.abs().min(room);
         let mut start = self.best.unknowns.clone();
         for _ in 0..MOST {
-            if distance <= 0.0 {
+            if distance <= 0.0 || self.task.is_ended() {
                 return None;
             }
             let value = from + distance.copysign(step);

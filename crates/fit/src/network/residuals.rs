@@ -11,7 +11,7 @@ use std::{iter::repeat_n, ops::Range};
 use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
 
-use super::{Curve, Kind, Model, Number, Test, jump::Jump, record::Record};
+use super::{Curve, Kind, Model, Number, Test, jump::Jump, record::Record, watch::Watched};
 use crate::optimum::Residuals;
 
 /// Step of differences in logarithms of numbers, and in standard deviations.
@@ -34,6 +34,7 @@ pub(super) struct Task<'t> {
     tests: &'t [Test],
     model: &'t Model<'t>,
     records: Vec<Record>,
+    watched: Option<&'t Watched<'t>>,
 }
 
 /// What a test has to itself: shift \[s\], offset, gain.
@@ -63,7 +64,23 @@ impl<'t> Task<'t> {
     ) -> Result<Self, (usize, SettingsFault)> {
         let records = tests.iter().enumerate();
         let records = records.map(|(at, own)| Record::of(own).map_err(|fault| (at, fault)));
-        Ok(Self { numbers, tests, model, records: records.collect::<Result<_, _>>()? })
+        Ok(Self {
+            numbers,
+            tests,
+            model,
+            records: records.collect::<Result<_, _>>()?,
+            watched: None,
+        })
+    }
+
+    /// The same, watched.
+    pub(super) fn watched(self, watched: &'t Watched<'t>) -> Self {
+        Self { watched: Some(watched), ..self }
+    }
+
+    /// Whether who watches it has ended the search.
+    pub(super) fn is_ended(&self) -> bool {
+        self.watched.is_some_and(Watched::is_stopped)
     }
 
     /// Rows of all tests, and of what is known of their own unknowns.
@@ -354,6 +371,10 @@ impl<'t> Task<'t> {
 }
 
 impl Residuals for Task<'_> {
+    fn is_stopped(&self, steps: usize, cost: f64) -> bool {
+        self.watched.is_some_and(|own| own.step(steps, cost))
+    }
+
     fn residual(&self, unknowns: &[f64]) -> Vec<f64> {
         self.left(unknowns)
     }

@@ -55,15 +55,27 @@ impl Recognized {
     pub fn as_acceleration(motion: &Waveform) -> Option<(Self, f64)> {
         let speed = motion.piece_at(0.0).derivative(1, 0.0);
         // What rounding leaves of a start from rest is none.
-        [0.0, speed].into_iter().find_map(|speed| Some((Self::of_motion(motion, speed)?, speed)))
+        [0.0, speed].into_iter().find_map(|speed| {
+            let again = |own: &Waveform| own.motion(speed);
+            Some((Self::of_derivative(motion, second_derivative, &again)?, speed))
+        })
     }
 
-    fn of_motion(motion: &Waveform, speed: f64) -> Option<Self> {
-        let pieces =
-            motion.pieces().iter().map(second_derivative).collect::<Option<Vec<Piece>>>()?;
+    /// The kind of the velocity of a motion that begins at zero at `t = 0`; `None` likewise.
+    pub fn as_velocity(motion: &Waveform) -> Option<Self> {
+        Self::of_derivative(motion, first_derivative, &Waveform::integral)
+    }
+
+    /// The kind of a derivative of a motion, which leads `again` to it.
+    fn of_derivative(
+        motion: &Waveform,
+        derivative: fn(&Piece) -> Option<Piece>,
+        again: &dyn Fn(&Waveform) -> Option<Waveform>,
+    ) -> Option<Self> {
+        let pieces = motion.pieces().iter().map(derivative).collect::<Option<Vec<Piece>>>()?;
         let is_of = |own: &Self| {
-            let again = (own.make)(&own.values).ok();
-            let again = again.and_then(|again| again.motion(speed));
+            let made = (own.make)(&own.values).ok();
+            let again = made.and_then(|made| again(&made));
             again.is_some_and(|again| is_same(motion, &again))
         };
         // What lies before t = 0 is not kept by the motion.
@@ -74,8 +86,8 @@ impl Recognized {
             Some(given) => waveform.given_at(given),
             None => waveform,
         };
-        let acceleration = [Waveform::new(pieces), Waveform::new(with_quiet)];
-        acceleration.into_iter().flatten().filter_map(|own| Self::of(&as_given(own))).find(is_of)
+        let both = [Waveform::new(pieces), Waveform::new(with_quiet)];
+        both.into_iter().flatten().filter_map(|own| Self::of(&as_given(own))).find(is_of)
     }
 
     /// A function of the same kind with other values.
@@ -100,6 +112,24 @@ impl Recognized {
 fn of_kind<W: WaveformKind>(waveform: &Waveform, kind: &W) -> Option<Recognized> {
     let again = kind.waveform().ok()?;
     is_same(waveform, &again).then(|| Recognized::named(kind))
+}
+
+/// The derivative of a piece; `None` where its frequency is swept.
+fn first_derivative(piece: &Piece) -> Option<Piece> {
+    if piece.is_swept() {
+        return None;
+    }
+    let wave = |own: f64| if own == 0.0 { 0.0 } else { own };
+    Some(Piece {
+        start: piece.start,
+        value: piece.slope,
+        slope: piece.curvature,
+        curvature: piece.jerk,
+        sine: wave(-piece.omega * piece.cosine),
+        cosine: wave(piece.omega * piece.sine),
+        omega: piece.omega,
+        ..Piece::default()
+    })
 }
 
 /// The second derivative of a piece; `None` where its frequency is swept.

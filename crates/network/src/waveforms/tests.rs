@@ -1,5 +1,7 @@
 use std::f64::consts::PI;
 
+use dashpot_dae::Piece;
+
 use super::*;
 
 #[test]
@@ -137,4 +139,32 @@ fn accelerations_become_displacements_without_a_kink() {
         }
     }
     assert_eq!(twice(Chirp::sample().waveform().unwrap()), None);
+}
+
+#[test]
+fn the_velocity_of_a_motion_is_told_by_its_kind() {
+    let jumping =
+        Table { points: vec![(0.0, 0.0), (0.1, 2.0), (0.1, 0.5), (0.3, 0.0)], outside: None };
+    let velocities = [
+        ("half-sine", HalfSine { peak: 2.0, duration: 0.05, start: 0.01 }.waveform()),
+        ("haversine", Haversine { peak: 3.0, duration: 0.05, start: 0.0 }.waveform()),
+        ("sine", Sine { amplitude: 2.0, frequency: 7.0, phase: 0.4 }.waveform()),
+        ("table", jumping.waveform()),
+    ];
+    for (word, velocity) in velocities {
+        let velocity = velocity.unwrap();
+        let motion = velocity.integral().unwrap();
+        let found = Recognized::as_velocity(&motion).unwrap_or_else(|| panic!("{word}"));
+        assert_eq!(found.word, word);
+        let again = found.with(&found.values).unwrap();
+        for at in 0..60 {
+            let time = 0.005 * f64::from(at) + 0.0012;
+            assert!((again.value(time) - velocity.value(time)).abs() < 1e-12, "{word} at {time}");
+        }
+    }
+    let swept = Recognized::as_velocity(
+        &Waveform::new(vec![Piece { sine: 1.0, omega: 3.0, sweep: 1.0, ..Piece::default() }])
+            .unwrap(),
+    );
+    assert!(swept.is_none());
 }

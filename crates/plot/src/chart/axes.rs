@@ -19,14 +19,24 @@ use crate::{
 };
 
 impl Chart {
-    /// Draws the grid, ticks, axes and what they are labelled with, in a drawing of this width \[px\].
-    pub(super) fn draw_axes(&self, area: &Area<'_>, frame: &Frame, width: f64) -> Drawn {
+    /// Draws the grid, ticks, axes and what they are labelled with, in a drawing of this width \[px\]; the horizontal
+    /// axis only where it `is_labelled`.
+    pub(super) fn draw_axes(
+        &self,
+        area: &Area<'_>,
+        frame: &Frame,
+        width: f64,
+        is_labelled: bool,
+    ) -> Drawn {
         let Frame { left, right, top, bottom, .. } = *frame;
         let grid = line(theme::GRID, theme::HAIR_WIDTH);
         let tick = |pos| text_style(theme::TICK_SIZE, theme::INK, pos);
         for value in frame.x.ticks() {
             let (at, _) = frame.at(*value, 0.0);
             area.draw(&path(&[(at, top), (at, bottom)], grid))?;
+            if !is_labelled {
+                continue;
+            }
             let style = tick(Pos::new(HPos::Center, VPos::Top));
             let label = frame.x.tick_label(*value);
             let room = 0.5 * text_width(&label, theme::TICK_SIZE);
@@ -51,17 +61,19 @@ impl Chart {
         }
         let border = [(left, top), (left, bottom), (right, bottom)];
         area.draw(&path(&border, line(theme::INK, theme::LINE_WIDTH)))?;
-        self.draw_labels(area, frame, width)
+        self.draw_labels(area, frame, width, is_labelled)
     }
 
-    fn draw_labels(&self, area: &Area<'_>, frame: &Frame, width: f64) -> Drawn {
+    fn draw_labels(&self, area: &Area<'_>, frame: &Frame, width: f64, is_labelled: bool) -> Drawn {
         let Frame { top, bottom, .. } = *frame;
         let text = |text: &str, size: f64, room: f64| clip_width(&one_line(text), size, room);
         let x_label =
             text(&frame.x.title(&self.x_label), theme::LABEL_SIZE, width - 2.0 * theme::MARGIN);
         let below = text_style(theme::LABEL_SIZE, theme::INK, Pos::new(HPos::Center, VPos::Top));
         let at = canvas((frame.middle_of(&x_label, width), bottom + 13.0 + theme::TICK_SIZE));
-        area.draw(&Text::new(x_label, at, below))?;
+        if is_labelled {
+            area.draw(&Text::new(x_label, at, below))?;
+        }
         let y_label = text(
             &frame.y.title(&self.y_label),
             theme::LABEL_SIZE,

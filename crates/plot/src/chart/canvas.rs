@@ -58,7 +58,7 @@ pub(super) fn layer(
 
 pub(super) fn dashes(pattern: Pattern) -> &'static str {
     match pattern {
-        Pattern::Solid | Pattern::Broad | Pattern::Stems => "",
+        Pattern::Solid | Pattern::Broad | Pattern::Stems | Pattern::Points | Pattern::Band => "",
         Pattern::Dashed => " stroke-dasharray=\"80 50\"",
         Pattern::Dotted | Pattern::Measured => " stroke-dasharray=\"20 40\"",
         Pattern::DashDotted => " stroke-dasharray=\"110 40 20 40\"",
@@ -83,6 +83,12 @@ impl Pen {
         let color = self.colour.rgb().mix(alpha);
         ShapeStyle { color, filled: false, stroke_width: pixels(width) }
     }
+}
+
+/// The area within corners, pale.
+pub(super) fn band(corners: &[(f64, f64)], colour: Colour) -> Polygon<(i32, i32)> {
+    let corners = corners.iter().map(|own| canvas(*own)).collect::<Vec<_>>();
+    Polygon::new(corners, colour.rgb().mix(BAND_ALPHA).filled())
 }
 
 /// A filled shape.
@@ -122,6 +128,10 @@ pub(super) fn pixels(length: f64) -> u32 {
 
 /// Part of a marker's radius that a single point and the disc of a stem have.
 const DISC: f64 = 0.6;
+/// How much of its colour a band has.
+const BAND_ALPHA: f64 = 0.25;
+/// Discs nearer to each other than this are one \[px\].
+const NEAR: f64 = 1.5;
 
 impl Chart {
     /// The stretches of a curve on the display, thinned to what can be seen; of stems one for each.
@@ -135,6 +145,16 @@ impl Chart {
             let foot = frame.bottom - frame.y.foot() * (frame.bottom - frame.top);
             let drawn = placed.filter(|(x, y)| x.is_finite() && y.is_finite());
             return drawn.map(|(x, y)| vec![(x, foot), (x, y)]).collect();
+        }
+        if self.stroke(index).pattern == Pattern::Points {
+            let mut all: Vec<Path> = Vec::new();
+            for own in placed.filter(|own| own.0.is_finite() && own.1.is_finite()) {
+                let far = |last: (f64, f64)| (own.0 - last.0).hypot(own.1 - last.1) > NEAR;
+                if all.last().is_none_or(|last| far(last[0])) {
+                    all.push(vec![own]);
+                }
+            }
+            return all;
         }
         stretches(placed).iter().map(|stretch| decimate(stretch, 0.5)).collect()
     }
@@ -174,6 +194,7 @@ pub(super) fn draw_curve(area: &Area<'_>, paths: &[Path], pen: Pen) -> Drawn {
                 draw_stem(area, &[foot, end], pen)?;
             }
             [point] => draw_disc(area, point, pen)?,
+            _ if pen.pattern == Pattern::Band => area.draw(&band(points, pen.colour))?,
             _ => area.draw(&path(points, pen.style()))?,
         }
     }
@@ -186,7 +207,7 @@ pub(super) fn draw_stem(area: &Area<'_>, stem: &[(f64, f64); 2], pen: Pen) -> Dr
     draw_disc(area, stem[1], pen)
 }
 
-fn draw_disc(area: &Area<'_>, point: (f64, f64), pen: Pen) -> Drawn {
+pub(super) fn draw_disc(area: &Area<'_>, point: (f64, f64), pen: Pen) -> Drawn {
     let colour = pen.colour.rgb().filled();
     area.draw(&Circle::new(canvas(point), pixels(DISC * theme::MARKER_RADIUS), colour))
 }

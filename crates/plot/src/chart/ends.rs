@@ -53,7 +53,10 @@ impl Chart {
             let runs_on = series.points.is_sorted_by(|one, next| one.0 <= next.0);
             let (x, y) = *series.points.last()?;
             let is_at_end = self.takes(x, y) && (1.0 - frame.x.fraction(x)).abs() <= AT_END;
-            let is_line = !matches!(pen.pattern, Pattern::Broad | Pattern::Stems);
+            let is_line = !matches!(
+                pen.pattern,
+                Pattern::Broad | Pattern::Stems | Pattern::Points | Pattern::Band
+            );
             if !(runs_on && is_at_end && is_line && frame.y.holds(y)) {
                 return None;
             }

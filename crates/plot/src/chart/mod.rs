@@ -8,6 +8,7 @@ mod heading;
 mod labels;
 mod legend;
 mod naming;
+mod panels;
 mod svg;
 mod text;
 
@@ -65,6 +66,9 @@ pub struct Chart {
     pub family: usize,
     /// Whether arrowheads tell in which direction curves are run through, as where a loop is loaded and unloaded.
     pub has_arrows: bool,
+    /// A lower chart under this one in the same drawing, over the same horizontal axis, such as what a fit leaves of its
+    /// rows. Its own title, remark and horizontal label are not drawn, nor is it in texts.
+    pub below: Option<Box<Self>>,
 }
 
 /// One curve.
@@ -82,6 +86,24 @@ impl Series {
     /// A curve in the next colour and pattern.
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), points, stroke: None }
+    }
+
+    /// A band from (x, lower, upper) to the next, in a colour of the theme; what is not finite is a gap.
+    pub fn band(
+        name: impl Into<String>,
+        colour: usize,
+        rows: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
+        let rows: Vec<(f64, f64, f64)> = rows.into_iter().collect();
+        let is_whole = |own: &(f64, f64, f64)| own.1.is_finite() && own.2.is_finite();
+        let mut points = Vec::new();
+        for stretch in rows.chunk_by(|one, next| is_whole(one) && is_whole(next)) {
+            points.extend(stretch.iter().map(|own| (own.0, own.1)));
+            points.extend(stretch.iter().rev().map(|own| (own.0, own.2)));
+            points.push((f64::NAN, f64::NAN));
+        }
+        let stroke = Some(Stroke { colour, pattern: Pattern::Band });
+        Self { name: name.into(), points, stroke }
     }
 }
 
@@ -111,6 +133,10 @@ pub enum Pattern {
     Measured,
     /// A vertical line to each point with a disc at its end, as of a spectrum of single lines.
     Stems,
+    /// A disc at each point in the colour of ink: single values that were measured.
+    Points,
+    /// The area within the points, pale, such as the band of an uncertainty.
+    Band,
 }
 
 /// A point that carries a text, such as a peak.
@@ -164,7 +190,7 @@ impl Chart {
     /// Colour and pattern of the `index`-th curve.
     fn pen(&self, index: usize) -> Pen {
         let Stroke { colour, pattern } = self.stroke(index);
-        let colour = if pattern == Pattern::Measured {
+        let colour = if matches!(pattern, Pattern::Measured | Pattern::Points) {
             theme::INK
         } else if index < self.family {
             let numbers =
@@ -185,7 +211,10 @@ impl Chart {
         let ys = || drawn().map(|p| p.1).chain(self.marked().map(|m| m.y));
         let x_lines = self.near_lines(Direction::Vertical, xs());
         let y_lines = self.near_lines(Direction::Horizontal, ys());
-        let runs_on = self.series.iter().all(|s| s.points.is_sorted_by(|a, b| a.0 <= b.0));
+        let is_band = |at: usize| self.stroke(at).pattern == Pattern::Band;
+        let is_sorted = |s: &Series| s.points.is_sorted_by(|a, b| a.0 <= b.0);
+        let mut each = self.series.iter().enumerate();
+        let runs_on = each.all(|(at, own)| is_band(at) || is_sorted(own));
         let padded = !runs_on || !x_lines.is_empty();
         (
             Axis::of(&self.x_scale, xs().chain(x_lines.iter().copied()), padded, x_ticks),

@@ -6,28 +6,30 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::draw_heading;
 use super::canvas::{
-    Area, Drawn, Fault, canvas, dashes, draw_curve, draw_stem, layer, line, opening, path, pixels,
-    places, shape, text_style,
+    Area, Drawn, Fault, band, canvas, dashes, draw_curve, draw_disc, draw_stem, layer, line,
+    opening, path, pixels, places, shape, text_style,
 };
 use super::ends::{EndNames, draw_sample as draw_end};
 use super::legend::{Entry, Legend, Sample, Texts, draw_texts};
 use super::naming::{same_curves, same_name};
 use super::{Chart, Direction, Heading, Pattern, ReferenceLine};
 use crate::PlotError;
-use crate::axis::{Ends, Frame};
+use crate::axis::{Axis, Ends, Frame};
 use crate::decimation::Path;
 use crate::text_metrics::{escape, one_line, text_width};
 use crate::theme::{self, Sheet};
 
 /// Where everything is in a drawing \[px\].
-struct Layout {
-    size: (f64, f64),
-    heading: Heading,
-    frame: Frame,
-    ends: Option<EndNames>,
-    legend: Legend,
+pub(super) struct Layout {
+    pub(super) size: (f64, f64),
+    pub(super) heading: Heading,
+    pub(super) frame: Frame,
+    pub(super) ends: Option<EndNames>,
+    pub(super) legend: Legend,
     /// Upper left corner of the legend.
-    origin: (f64, f64),
+    pub(super) origin: (f64, f64),
+    /// Whether the horizontal axis has its labels, which it has not where another chart is below.
+    pub(super) is_labelled: bool,
 }
 
 impl Chart {
@@ -57,16 +59,25 @@ impl Chart {
     }
 
     fn draw(&self, sheet: Sheet) -> Result<String, Fault> {
-        let Layout { size, heading, frame, ends, legend, origin } = self.layout(sheet);
+        if let Some(below) = &self.below {
+            return self.over(below, sheet);
+        }
+        let layout = self.layout(sheet);
+        Ok(opening(layout.size, &self.title) + &self.drawn(&layout)? + "</svg>\n")
+    }
+
+    /// The drawing within its outermost element.
+    pub(super) fn drawn(&self, layout: &Layout) -> Result<String, Fault> {
+        let Layout { size, heading, frame, ends, legend, origin, is_labelled } = layout;
+        let size = *size;
         let curves: Vec<Vec<Path>> =
-            (0..self.series.len()).map(|index| self.curve(&frame, index)).collect();
-        let mut svg = opening(size, &self.title);
-        svg += &layer(size, "class=\"axes\"", |area| {
-            draw_heading(area, &heading, frame.left)?;
-            self.draw_axes(area, &frame, size.0)
+            (0..self.series.len()).map(|index| self.curve(frame, index)).collect();
+        let mut svg = layer(size, "class=\"axes\"", |area| {
+            draw_heading(area, heading, frame.left)?;
+            self.draw_axes(area, frame, size.0, *is_labelled)
         })?;
         svg += &layer(size, "class=\"limits\" stroke-dasharray=\"70 50\"", |area| {
-            self.draw_lines(area, &frame)
+            self.draw_lines(area, frame)
         })?;
         for (index, paths) in curves.iter().enumerate() {
             let pen = self.pen(index);
@@ -77,7 +88,7 @@ impl Chart {
             );
             svg += &layer(size, &attributes, |area| draw_curve(area, paths, pen))?;
         }
-        let arrowheads = self.arrowheads(&frame, &curves);
+        let arrowheads = self.arrowheads(frame, &curves);
         if !arrowheads.is_empty() {
             svg += &layer(size, "class=\"arrows\"", |area| {
                 arrowheads.iter().try_for_each(|own| area.draw(&shape(&own.corners, own.colour)))
@@ -89,7 +100,7 @@ impl Chart {
                 Sample::Line(_) => " stroke-dasharray=\"70 50\"",
             };
             let attributes = format!("class=\"sample\"{dashes}");
-            svg += &layer(size, &attributes, |area| draw_sample(area, entry, origin))?;
+            svg += &layer(size, &attributes, |area| draw_sample(area, entry, *origin))?;
         }
         if let Some(ends) = ends {
             let corner = (frame.right, frame.top);
@@ -99,19 +110,25 @@ impl Chart {
             }
             svg += &layer(size, "class=\"names\"", |area| ends.draw(area, corner))?;
         }
-        svg += &drawn_texts(size, &self.place_texts(&frame, &curves, &arrowheads))?;
-        Ok(svg + "</svg>\n")
+        svg += &drawn_texts(size, &self.place_texts(frame, &curves, &arrowheads))?;
+        Ok(svg)
     }
 
     /// Where everything is on a sheet.
     fn layout(&self, sheet: Sheet) -> Layout {
         let (x, y) = self.axes(sheet.x_ticks, sheet.y_ticks);
-        let widest_tick = y
-            .ticks()
-            .iter()
-            .map(|t| text_width(&y.tick_label(*t), theme::TICK_SIZE))
-            .fold(0.0_f64, f64::max);
-        let left = theme::MARGIN + 1.5 * theme::LABEL_SIZE + widest_tick + 12.0;
+        let left = Self::left(&y);
+        self.laid_out(sheet, (x, y), left)
+    }
+
+    /// Where the frame begins beside the labels of a vertical axis \[px\].
+    pub(super) fn left(y: &Axis) -> f64 {
+        let widths = y.ticks().iter().map(|own| text_width(&y.tick_label(*own), theme::TICK_SIZE));
+        theme::MARGIN + 1.5 * theme::LABEL_SIZE + widths.fold(0.0_f64, f64::max) + 12.0
+    }
+
+    /// Where everything is on a sheet with these axes, whose frame begins there.
+    pub(super) fn laid_out(&self, sheet: Sheet, (x, y): (Axis, Axis), left: f64) -> Layout {
         let right = sheet.width - theme::MARGIN - 8.0;
         let heading = Heading::new(&self.title, &self.note, right - left);
         let mut frame = Frame { left, right, top: 0.0, bottom: sheet.height, x, y };
@@ -122,7 +139,8 @@ impl Chart {
         frame.bottom = frame.top + sheet.height;
         let height = frame.bottom + 2.6 * theme::LABEL_SIZE + theme::MARGIN + 8.0;
         let origin = (left, heading.bottom);
-        Layout { size: (sheet.width, height), heading, frame, ends, legend, origin }
+        let size = (sheet.width, height);
+        Layout { size, heading, frame, ends, legend, origin, is_labelled: true }
     }
 
     /// What stands in the legend: the curves, where they are `named` there, and the lines that are not drawn.
@@ -184,6 +202,16 @@ fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
             let middle = x + 0.5 * Legend::SAMPLE;
             let reach = 0.4 * theme::TICK_SIZE;
             draw_stem(area, &[(middle, y + reach), (middle, y - reach)], pen)?;
+        }
+        Sample::Curve(pen) if pen.pattern == Pattern::Points => {
+            for part in [0.15, 0.5, 0.85] {
+                draw_disc(area, (x + part * Legend::SAMPLE, y), pen)?;
+            }
+        }
+        Sample::Curve(pen) if pen.pattern == Pattern::Band => {
+            let (right, reach) = (ends[1].0, 0.4 * theme::TICK_SIZE);
+            let corners = [(x, y - reach), (right, y - reach), (right, y + reach), (x, y + reach)];
+            area.draw(&band(&corners, pen.colour))?;
         }
         Sample::Curve(pen) => area.draw(&path(&ends, pen.style()))?,
         Sample::Line(colour) => {

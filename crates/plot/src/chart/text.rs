@@ -61,6 +61,10 @@ impl Chart {
             let ends = points.iter().filter(|p| takes(p)).map(|p| at(*p));
             return ends.flat_map(|end| line_dots((end.0, foot), end, size)).collect();
         }
+        if self.stroke(index).pattern == Pattern::Points {
+            let ends = points.iter().filter(|p| takes(p)).map(|p| at(*p));
+            return ends.flat_map(|end| line_dots(end, end, size)).collect();
+        }
         let mut dots: Vec<(usize, usize)> = Vec::new();
         for (i, point) in points.iter().enumerate().filter(|(_, p)| takes(p)) {
             let end = at(*point);

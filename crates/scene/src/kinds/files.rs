@@ -7,7 +7,7 @@ use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind
 use super::{
     file_units::{misread_unit, unit},
     parameters::KindReader,
-    records::Treatment,
+    records::{CHANNEL, Treatment},
 };
 use crate::{
     curves::{CurveChange, Difference, Fitted, Row, fit, outward, split, turning_row, unloading},
@@ -30,6 +30,8 @@ struct Wishes<'i> {
     units: Option<[&'i Item; 2]>,
     /// By what the values are multiplied.
     scale: Option<f64>,
+    /// Which channel of a test in ISO-MME.
+    channel: Option<&'i Item>,
 }
 
 /// Rows of two columns of a file, with where they are from.
@@ -80,7 +82,8 @@ impl<'d> KindReader<'d> {
             None => None,
         };
         let treatment = self.treatment(table, parameter)?;
-        let wishes = Wishes { columns: columns?, units: units?, scale };
+        let channel = table.take(CHANNEL).map(|own| &own.item);
+        let wishes = Wishes { columns: columns?, units: units?, scale, channel };
         self.treated(self.rows(&name?.item, &wishes, parameter)?, treatment)
     }
 
@@ -88,6 +91,22 @@ impl<'d> KindReader<'d> {
         let faults = self.quantities.faults;
         let path = text_of(name, &format!("`{FILE}`"), faults)?;
         let file = self.quantities.files.get(path, name.place, faults)?;
+        if let Some(channels) = &file.channels {
+            if parameter.kind != ParameterKind::TimeTable {
+                let help = "write its points into a table, such as a CSV file".to_owned();
+                let fault = Fault::odd("a test in ISO-MME is a function of time".to_owned(), help);
+                faults.error(name.place, fault);
+                return None;
+            }
+            let wanted = (wishes.channel, wishes.scale.unwrap_or(1.0));
+            return self.of_channel(file, channels, wanted, name.place);
+        }
+        if let Some(item) = wishes.channel {
+            let help = "of a table write `columns = [\"t\", \"acc\"]`".to_owned();
+            let message = "`channel` is one of a test in ISO-MME, an `.mme` file".to_owned();
+            faults.error(item.place, Fault::odd(message, help));
+            return None;
+        }
         let named = || format!("the file is named in {}", faults.whereabouts(name.place));
         let tell = |span: ops::Range<usize>, fault: Fault, more: Vec<String>| {
             let note = more.into_iter().chain([named()]).collect::<Vec<_>>().join("; ");

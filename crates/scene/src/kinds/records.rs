@@ -1,19 +1,27 @@
 //! Records over time from files: their clock, what is taken off, the filter that they go through.
 
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, Range};
-use dashpot_signal::{Cfc, Channel, Removal, Settings};
+use dashpot_signal::{Cfc, Channel, Removal, Settings, iso_mme::MmeChannel};
 
 use super::{files::FileRows, parameters::KindReader};
 use crate::{
     curves::Row,
     diagnostics::fault::Fault,
     models::notes::{Remark, RestRemoved},
-    text::{source::Place, table::Table},
+    text::{
+        document::Item,
+        library::tables::TableFile,
+        source::Place,
+        table::{Table, text_of},
+    },
     units::format_short,
 };
 
 /// The keys of a record beside its file.
 pub(crate) const RECORD_KEYS: [&str; 3] = ["shift", "offset", "cfc"];
+
+/// The key of a channel of a test in ISO-MME.
+pub(crate) const CHANNEL: &str = "channel";
 
 /// What a record holds before the run is told above this part of its peak.
 const EARLY: f64 = 0.05;
@@ -102,6 +110,58 @@ impl KindReader<'_> {
         );
         let help = format!("move it into the run: `{{ file = …, shift = \"{time}\" }}`");
         self.quantities.faults.warning(place, Fault::odd(message, help));
+    }
+
+    /// The rows of a channel of a test: of the one that is named, by its code or name, or of the only one that measures
+    /// what is driven.
+    pub(super) fn of_channel<'d>(
+        self,
+        file: &'d TableFile,
+        channels: &[MmeChannel],
+        (wanted, scale): (Option<&Item>, f64),
+        place: Place,
+    ) -> Option<FileRows<'d>> {
+        let code = |own: &MmeChannel| own.code.as_ref().map(|own| own.text().to_owned());
+        let told = |own: &MmeChannel| code(own).unwrap_or_else(|| own.channel.name().to_owned());
+        let fits = |own: &&MmeChannel| own.channel.dimension() == self.driven;
+        let known = || channels.iter().map(told).collect::<Vec<String>>();
+        let found = if let Some(item) = wanted {
+            let name = text_of(item, &format!("`{CHANNEL}`"), self.quantities.faults)?;
+            let is_it = |own: &&MmeChannel| {
+                let code = code(own).is_some_and(|own| own.eq_ignore_ascii_case(name));
+                code || own.channel.name().eq_ignore_ascii_case(name)
+            };
+            let Some(found) = channels.iter().find(is_it) else {
+                let (family, name) = (CHANNEL, name.to_owned());
+                self.refuse(item.place, Fault::UnknownName { family, name, known: known() });
+                return None;
+            };
+            found
+        } else {
+            let all: Vec<&MmeChannel> = channels.iter().filter(fits).collect();
+            let [one] = all[..] else {
+                let message = format!(
+                    "{} of its channels measure what is driven here; it has {}",
+                    all.len(),
+                    known().join(", ")
+                );
+                let help = "name one: `{ file = …, channel = \"…\" }`";
+                self.refuse(place, Fault::odd(message, help));
+                return None;
+            };
+            one
+        };
+        if !fits(&found) {
+            let is = dashpot_units::si_unit(found.channel.dimension());
+            let wanted = dashpot_units::si_unit(self.driven);
+            let message = format!("channel `{}` is in {is}, where {wanted} is wanted", told(found));
+            let help = "name another channel, or drive with what it measures".to_owned();
+            self.refuse(place, Fault::odd(message, help));
+            return None;
+        }
+        let own = found.channel.times().iter().zip(found.channel.values());
+        let rows = own.map(|(at, value)| Row { at: *at, value: scale * value, start: 0 });
+        Some(FileRows { file, rows: rows.collect(), place })
     }
 
     fn refuse(self, place: Place, fault: Fault) {

@@ -4,7 +4,10 @@ use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
 use serde_json::{Map, Value, json};
 
 use crate::{
-    kinds::{are_file, is_points, is_table, records::RECORD_KEYS},
+    kinds::{
+        are_file, is_points, is_table,
+        records::{CHANNEL, RECORD_KEYS},
+    },
     quantities::{
         basis::{Basis, is_size},
         words::{described, example_text},
@@ -66,6 +69,16 @@ impl Values {
         table
     }
 
+    /// A list of points over time, or a record in a file.
+    fn points_of_record(self, time: &Value, value: &Value) -> Value {
+        let list = json!({ "type": "array", "items": pair(time, value) });
+        let mut table = of_file();
+        if let Some(properties) = table["properties"].as_object_mut() {
+            properties.extend(self.of_record());
+        }
+        json!({ "anyOf": [list, reference("file"), table] })
+    }
+
     /// What becomes of a record before it is a function of time.
     fn of_record(self) -> Map<String, Value> {
         let offset = json!({ "anyOf": [{ "const": "auto" }, named_quantity(self.driven)] });
@@ -77,8 +90,12 @@ impl Values {
                 "what is taken off; `auto`: what it reads at rest before the pulse",
             ),
             described_as(cfc, "filters by a channel frequency class of SAE J211"),
+            described_as(
+                json!({ "type": "string" }),
+                "the channel of a test in ISO-MME, by its code or name; needed where several measure what is driven",
+            ),
         ];
-        RECORD_KEYS.into_iter().map(str::to_owned).zip(all).collect()
+        RECORD_KEYS.into_iter().chain([CHANNEL]).map(str::to_owned).zip(all).collect()
     }
 
     /// The parameters by their names.
@@ -94,7 +111,7 @@ impl Values {
             ParameterKind::Quantity(dimension) => of(dimension),
             ParameterKind::TemperatureDifference => temperature_difference(),
             ParameterKind::Amplitude => of(self.driven),
-            ParameterKind::TimeTable => points(&time, &of(self.driven)),
+            ParameterKind::TimeTable => self.points_of_record(&time, &of(self.driven)),
             ParameterKind::Curve(first, second) => points(&of(first), &of(second)),
             ParameterKind::Choice(words) => json!({ "enum": words }),
             ParameterKind::Flag => json!({ "const": true }),

@@ -30,8 +30,8 @@ use crate::{
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum Unwritable {
-    /// A load that is no line, sine, half-sine or haversine, or a motion that is none and whose
-    /// acceleration is none.
+    /// A load that is no line, sine, half-sine or haversine, or a motion that is none and whose velocity and
+    /// acceleration are none.
     #[error("`{name}` is driven by a function of time that only its own text describes")]
     Function { name: String },
     /// A layer that is not linear.
@@ -290,7 +290,8 @@ fn write_waveform(waveform: &Waveform, driven: Dimension) -> Option<String> {
     Recognized::of(waveform).map(|own| written(&own, driven))
 }
 
-/// The motion of a node as `motion = { … }`, or as the `acceleration` that it was made of, with the velocity at its start.
+/// The motion of a node as `motion = { … }`, or as the `acceleration` that it was made of, with the velocity at its start,
+/// or as its `velocity`.
 fn write_motion(motion: &Waveform) -> Option<String> {
     let acceleration = || {
         let (own, speed) = Recognized::as_acceleration(motion)?;
@@ -299,7 +300,11 @@ fn write_motion(motion: &Waveform) -> Option<String> {
         Some(if speed == 0.0 { own } else { begin() + &own })
     };
     let own = write_waveform(motion, Dimension::LENGTH);
-    own.map(|own| format!("motion = {{ {own} }}")).or_else(acceleration)
+    let velocity = || {
+        let own = written(&Recognized::as_velocity(motion)?, Dimension::VELOCITY);
+        Some(format!("velocity = {{ {own} }}"))
+    };
+    own.map(|own| format!("motion = {{ {own} }}")).or_else(acceleration).or_else(velocity)
 }
 
 fn written(recognized: &Recognized, driven: Dimension) -> String {

@@ -1,16 +1,38 @@
-//! The area under the absolute value of a signal.
+//! The area under a signal, one way or the other, or under its absolute value.
 
 use dashpot_dae::{Panel, Signal};
 use dashpot_numerics::chebyshev::{self, Coefficients};
 
 use super::Range;
 
-/// `|s|` over a window, cut at knots into monotone pieces, with its exact integral.
+/// Less area than this part of the other is none.
+const ROUNDING: f64 = 1e-12;
+
+/// Which way of a signal counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Sense {
+    /// `|s|`.
+    Magnitude,
+    /// `s`, or `−s` with the sign of −1.
+    Along(f64),
+}
+
+impl Sense {
+    fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Magnitude => value.abs(),
+            Self::Along(sign) => sign * value,
+        }
+    }
+}
+
+/// A signal in one sense over a window, cut at knots into monotone pieces, with its exact integral.
 #[derive(Debug)]
 pub(super) struct Area<'a> {
+    sense: Sense,
     /// Where a piece begins or ends, in rising order.
     knots: Vec<f64>,
-    /// The knots at which `|s|` jumps or ends.
+    /// The knots at which it jumps or ends.
     borders: Vec<f64>,
     /// Parts of panels on which the signal keeps its sign, in order of time.
     parts: Vec<Part<'a>>,
@@ -25,26 +47,30 @@ struct Part<'a> {
     antiderivative: Coefficients,
     /// The sign of the signal.
     sign: f64,
-    /// Where the part begins \[s\], and `|s|` there.
+    /// Whether it counts as area, and not against it.
+    is_for: bool,
+    /// Where the part begins \[s\], and the value there.
     start: f64,
     height: f64,
     /// Value of the antiderivative there.
     offset: f64,
-    /// Area before the part.
-    before: f64,
+    /// Area before the part, and what counts against it.
+    before: [f64; 2],
 }
 
 impl Part<'_> {
-    fn area_until(&self, t: f64) -> f64 {
+    fn areas_until(&self, t: f64) -> [f64; 2] {
         let half = 0.5 * self.panel.length();
         let value = chebyshev::evaluate(&self.antiderivative, self.panel.place(t));
-        self.before + (self.sign * half * (value - self.offset)).max(0.0)
+        let own = (self.sign * half * (value - self.offset)).max(0.0);
+        let [with, against] = self.before;
+        if self.is_for { [with + own, against] } else { [with, against + own] }
     }
 }
 
 impl<'a> Area<'a> {
     /// Cuts the signal in the window.
-    pub(super) fn new(signal: &'a Signal, window: (f64, f64)) -> Self {
+    pub(super) fn new(signal: &'a Signal, window: (f64, f64), sense: Sense) -> Self {
         let window = (window.0.max(signal.start()), window.1.min(signal.end()));
         let inside = |t: &f64| *t > window.0 && *t < window.1;
         let zeros = signal.crossings(0.0, window).into_iter().map(|crossing| crossing.time);
@@ -64,9 +90,10 @@ impl<'a> Area<'a> {
         borders.extend([window.0, window.1]);
         borders.sort_by(f64::total_cmp);
         Self {
+            sense,
             knots,
             borders,
-            parts: parts(signal, window, &zeros),
+            parts: parts(signal, window, &zeros, sense),
             largest: signal.absolute_maximum(window).value,
         }
     }
@@ -75,12 +102,32 @@ impl<'a> Area<'a> {
     pub(super) fn of_hump(signal: &'a Signal, window: (f64, f64), top: f64) -> Self {
         let mut knots = vec![window.0, top, window.1];
         knots.dedup();
+        let sense = Sense::Magnitude;
         Self {
+            sense,
             knots,
             borders: vec![window.0, window.1],
-            parts: parts(signal, window, &[]),
+            parts: parts(signal, window, &[], sense),
             largest: signal.value(top),
         }
+    }
+
+    /// Whether the signal has both signs in the window, beyond rounding.
+    pub(super) fn changes_sign(&self) -> bool {
+        let [with, against] = self.of_signs();
+        with.min(against) > ROUNDING * with.max(against)
+    }
+
+    /// The area where the signal is positive, and where it is negative.
+    pub(super) fn of_signs(&self) -> [f64; 2] {
+        let mut sums = [0.0_f64; 2];
+        let ends = self.parts.iter().skip(1).map(|own| own.start);
+        for (part, end) in self.parts.iter().zip(ends.chain(self.knots.last().copied())) {
+            let until = part.areas_until(end);
+            let own: f64 = until.iter().sum::<f64>() - part.before.iter().sum::<f64>();
+            sums[usize::from(part.sign < 0.0)] += own;
+        }
+        sums
     }
 
     /// Where the monotone pieces meet, and both ends.
@@ -100,18 +147,18 @@ impl<'a> Area<'a> {
         self.largest
     }
 
-    /// Whether `|s|` jumps or ends at `t`.
+    /// Whether the signal jumps or ends at `t`.
     pub(super) fn is_border(&self, t: f64) -> bool {
         self.borders.binary_search_by(|border| border.total_cmp(&t)).is_ok()
     }
 
-    /// The value of `|s|` at a time at which it does not jump.
+    /// The value at a time at which it does not jump.
     pub(super) fn height(&self, t: f64) -> f64 {
         let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
-        self.parts.get(at).map_or(0.0, |part| part.panel.value(t).abs())
+        self.parts.get(at).map_or(0.0, |part| self.sense.of(part.panel.value(t)))
     }
 
-    /// Neighbours among both ends and the parts between them, between which `|s|` passes a level, each with `|s|`:
+    /// Neighbours among both ends and the parts between them, between which it passes a level, each with its value:
     /// it is monotone between the ends, and on different sides of the level there.
     pub(super) fn around(&self, level: f64, [first, last]: [(f64, f64); 2]) -> [(f64, f64); 2] {
         let rises = last.1 > first.1;
@@ -124,21 +171,44 @@ impl<'a> Area<'a> {
         [before, inside.get(at).map_or(last, place)]
     }
 
-    /// The area from `from` to `to`.
+    /// The area from `from` to `to`, less what counts against it.
     pub(super) fn between(&self, from: f64, to: f64) -> f64 {
-        let until = |t: f64| {
-            let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
-            self.parts.get(at).map_or(0.0, |part| part.area_until(t))
-        };
-        (until(to) - until(from)).max(0.0)
+        let [with, against] = self.areas(from, to);
+        with - against
     }
 
-    /// Bounds of `|s|` between two times on one monotone piece; from the right at the first, from
+    /// No area from one range to another one, which may be the same or overlap, is larger.
+    pub(super) fn most(&self, first: (f64, f64), last: (f64, f64)) -> f64 {
+        if first.1 > last.0 {
+            return self.areas(first.0, last.1)[0];
+        }
+        let [of_first, of_last] = [first, last].map(|own| self.areas(own.0, own.1)[0]);
+        of_first + self.between(first.1, last.0) + of_last
+    }
+
+    /// No area from one range to a later one is smaller; 0 at least.
+    pub(super) fn least(&self, first: (f64, f64), last: (f64, f64)) -> f64 {
+        let [of_first, of_last] = [first, last].map(|own| self.areas(own.0, own.1)[1]);
+        (self.between(first.1, last.0) - of_first - of_last).max(0.0)
+    }
+
+    /// What counts as area between two times, and what counts against it.
+    fn areas(&self, from: f64, to: f64) -> [f64; 2] {
+        let until = |t: f64| {
+            let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+            self.parts.get(at).map_or([0.0; 2], |part| part.areas_until(t))
+        };
+        let (from, to) = (until(from), until(to));
+        [0, 1].map(|at: usize| (to[at] - from[at]).max(0.0))
+    }
+
+    /// Bounds of the value between two times on one monotone piece; from the right at the first, from
     /// the left at the second.
     pub(super) fn range(&self, from: f64, to: f64) -> Range {
         let panels = |t: f64| self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
-        let value =
-            |at: usize, t: f64| self.parts.get(at).map_or(0.0, |part| part.panel.value(t).abs());
+        let value = |at: usize, t: f64| {
+            self.parts.get(at).map_or(0.0, |own| self.sense.of(own.panel.value(t)))
+        };
         let first = value(panels(from), from);
         let mut at = panels(to);
         if at > 0 && self.parts[at].start >= to {
@@ -150,9 +220,9 @@ impl<'a> Area<'a> {
 }
 
 /// The panels of the signal in the window, cut at its zeros.
-fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<'a>> {
+fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64], sense: Sense) -> Vec<Part<'a>> {
     let mut parts = Vec::with_capacity(signal.panels.len() + zeros.len());
-    let mut before = 0.0;
+    let mut before = [0.0; 2];
     for panel in &signal.panels {
         let (start, end) = (panel.start.max(window.0), panel.end.min(window.1));
         if start >= end {
@@ -165,9 +235,11 @@ fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<
             let antiderivative = chebyshev::antiderivative(&panel.coefficients);
             let sign = panel.value(0.5 * (from + to)).signum();
             let offset = chebyshev::evaluate(&antiderivative, panel.place(from));
-            let height = panel.value(from).abs();
-            let part = Part { panel, antiderivative, sign, start: from, height, offset, before };
-            before = part.area_until(to);
+            let height = sense.of(panel.value(from));
+            let is_for = sense.of(sign) > 0.0;
+            let part =
+                Part { panel, antiderivative, sign, is_for, start: from, height, offset, before };
+            before = part.areas_until(to);
             parts.push(part);
             from = to;
         }

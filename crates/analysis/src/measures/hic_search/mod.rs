@@ -5,7 +5,7 @@ mod hump;
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
-use area::Area;
+use area::{Area, Sense};
 use dashpot_dae::Signal;
 
 /// Boxes that are looked into before the search settles for a bound.
@@ -16,7 +16,7 @@ const MOST_FIRST: usize = 64;
 /// is stationary inside, so its value is good to the square of this.
 const SMALLEST: f64 = 1e-8;
 
-/// The interval `[t1, t2]` that maximises `(t2 − t1)(V/(t2 − t1))^2.5`, `V = ∫ |s| dt`.
+/// The interval `[t1, t2]` that maximises `(t2 − t1)(V/(t2 − t1))^2.5`, `V = |∫ s dt|`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Optimum {
     /// The maximum \[unit^2.5·s\].
@@ -27,22 +27,50 @@ pub(crate) struct Optimum {
     pub threshold: f64,
 }
 
+impl Optimum {
+    /// That of nothing.
+    fn none(window: (f64, f64)) -> Self {
+        Self { value: 0.0, interval: (window.0, window.0), threshold: 0.0 }
+    }
+}
+
 /// Finds the largest head injury criterion of a signal over all intervals in the window that are
 /// no longer than `cap`.
 ///
-/// `|s|` is cut into monotone pieces, on which its values and its integral, taken from the exact
+/// The signal of one axis counts with its sign, as SAE J885 and ISO 6487 have it of a channel: a swing back takes from the
+/// area. It is looked at in both senses.
+///
+/// It is cut into monotone pieces, on which its values and its integral, taken from the exact
 /// antiderivative, are bounded. Branch and bound over pairs of ranges of pieces, divided down to single
 /// ones, drops what can hold no more than the best interval so far, and of single pieces what holds no zero of
 /// the derivatives: an optimum lies where
-/// `|s(t1)|` and `|s(t2)|` are 0.6 times the mean, at a jump or an end of the window, or, where the
-/// cap is active, where `|s(t1)| = |s(t2)|`. Nothing is sampled, so no optimum is missed. A signal with a single
+/// `s(t1)` and `s(t2)` are 0.6 times the mean, at a jump or an end of the window, or, where the
+/// cap is active, where `s(t1) = s(t2)`. Nothing is sampled, so no optimum is missed. A signal with a single
 /// hump needs no more than a search for its level.
 pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
-    let area = Area::new(signal, window);
-    if let Some(found) = hump::optimum(&area, cap) {
-        return found;
+    let area = Area::new(signal, window, Sense::Magnitude);
+    let [with, against] = area.of_signs();
+    if !area.changes_sign() {
+        return hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap));
     }
-    searched(&area, window, cap)
+    // The sense with more area first: what the other one has to exceed then ends its search at once.
+    let first = if with >= against { 1.0 } else { -1.0 };
+    let in_sense = |best: Optimum, sign: f64| {
+        better(&Area::new(signal, window, Sense::Along(sign)), cap, best)
+    };
+    [first, -first].into_iter().fold(Optimum::none(window), in_sense)
+}
+
+/// The same of the magnitude of a signal that has both signs in the window, as of a resultant; `None` of one that has
+/// not, whose magnitude counts as the signal does.
+pub(crate) fn optimum_of_magnitude(
+    signal: &Signal,
+    window: (f64, f64),
+    cap: f64,
+) -> Option<Optimum> {
+    let area = Area::new(signal, window, Sense::Magnitude);
+    let found = || hump::optimum(&area, cap).unwrap_or_else(|| searched(&area, window, cap));
+    area.changes_sign().then(found)
 }
 
 /// The same for a signal that is positive in the window and rises to one place, and falls behind it; either may be
@@ -54,13 +82,12 @@ pub(crate) fn optimum_of_hump(signal: &Signal, window: (f64, f64), top: f64, cap
 
 /// The same by a search through all intervals.
 fn searched(area: &Area<'_>, window: (f64, f64), cap: f64) -> Optimum {
-    let mut search = Search {
-        area,
-        cap,
-        best: Optimum { value: 0.0, interval: (window.0, window.0), threshold: 0.0 },
-        open: BinaryHeap::new(),
-        visited: 0,
-    };
+    better(area, cap, Optimum::none(window))
+}
+
+/// The same, if it exceeds another one.
+fn better(area: &Area<'_>, cap: f64, best: Optimum) -> Optimum {
+    let mut search = Search { area, cap, best, open: BinaryHeap::new(), visited: 0 };
     if area.largest() > 0.0 && cap > 0.0 {
         search.run();
     }
@@ -77,6 +104,10 @@ struct Side {
 impl Side {
     fn length(self) -> f64 {
         self.to - self.from
+    }
+
+    fn ends(self) -> (f64, f64) {
+        (self.from, self.to)
     }
 
     fn middle(self) -> f64 {
@@ -167,7 +198,8 @@ impl Search<'_> {
             }
             self.visited += 1;
             if self.visited > MOST_BOXES {
-                self.best.threshold = candidate.bound - self.best.value;
+                let missed = candidate.bound - self.best.value;
+                self.best.threshold = self.best.threshold.max(missed);
                 break;
             }
             match candidate.family {
@@ -215,7 +247,7 @@ impl Search<'_> {
             Family::Free(first, last) => {
                 let shortest = (last.from - first.to).max(0.0);
                 let longest = (last.to - first.from).min(self.cap);
-                let area = self.area.between(first.from, last.to);
+                let area = self.area.most(first.ends(), last.ends());
                 let largest = self.area.largest();
                 let by_height = criterion(largest * longest, longest);
                 // A given area weighs most in the shortest time in which it has room.
@@ -223,7 +255,8 @@ impl Search<'_> {
                 by_height.min(criterion(area, shortest))
             }
             Family::Capped(side) => {
-                criterion(self.area.between(side.from, side.to + self.cap), self.cap)
+                let far = (side.from + self.cap, side.to + self.cap);
+                criterion(self.area.most(side.ends(), far), self.cap)
             }
         };
         if bound > self.best.value * (1.0 + 1e-14) {
@@ -242,8 +275,8 @@ impl Search<'_> {
         }
         let mean = self.mean(first, last);
         let critical = Range { low: 0.6 * mean.low, high: 0.6 * mean.high };
-        // A later start loses |s(t1)| and shortens the interval; the criterion rises with t1 while
-        // |s(t1)| < 0.6 mean, and with t2 while |s(t2)| > 0.6 mean.
+        // A later start loses s(t1) and shortens the interval; the criterion rises with t1 while
+        // s(t1) < 0.6 mean, and with t2 while s(t2) > 0.6 mean.
         let starts = (first.length() > 0.0).then(|| self.area.range(first.from, first.to));
         if let Some(height) = starts {
             if height.high <= critical.low {
@@ -327,9 +360,9 @@ impl Search<'_> {
         let longest = last.to - first.from;
         let shortest = last.from - first.to;
         let low =
-            if shortest > 0.0 { self.area.between(first.to, last.from) / longest } else { 0.0 };
+            if shortest > 0.0 { self.area.least(first.ends(), last.ends()) / longest } else { 0.0 };
         let high = if shortest > 0.0 {
-            (self.area.between(first.from, last.to) / shortest).min(largest)
+            (self.area.most(first.ends(), last.ends()) / shortest).min(largest)
         } else {
             largest
         };

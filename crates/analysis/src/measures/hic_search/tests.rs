@@ -79,7 +79,7 @@ fn best_of_many_peaks_is_found() {
     for cap in [0.05, 0.2, 0.7, 10.0] {
         let found = optimum(&pulse, (0.0, 1.5), cap);
         let steps = 600_u32;
-        let area = Area::new(&pulse, (0.0, 1.5));
+        let area = Area::new(&pulse, (0.0, 1.5), Sense::Along(1.0));
         let mut best = 0.0_f64;
         for i in 0..steps {
             for j in i + 1..=steps {
@@ -121,10 +121,15 @@ fn caps_beyond_a_pulse_do_not_matter() {
 fn windows_span_two_peaks_where_that_is_worth_it() {
     // Two plateaus of 0.5 s with a gap between them: together they have the mean 1/(1 + gap).
     let both = |gap: f64| (1.0 + gap).powf(-1.5);
-    let near = steps(&[(0.5, -1.0), (0.25, 0.0), (0.5, 1.0), (0.75, 0.0)]);
+    let near = steps(&[(0.5, 1.0), (0.25, 0.0), (0.5, 1.0), (0.75, 0.0)]);
     let found = optimum(&near, (0.0, 2.0), 1e6);
     close(found.value, both(0.25), 1e-13);
     assert_eq!(found.interval, (0.0, 1.25));
+    assert_eq!(optimum_of_magnitude(&near, (0.0, 2.0), 1e6), None);
+    // A plateau of the other sign takes from the mean, and adds to that of the magnitude.
+    let turned = steps(&[(0.5, -1.0), (0.25, 0.0), (0.5, 1.0), (0.75, 0.0)]);
+    close(optimum(&turned, (0.0, 2.0), 1e6).value, 0.5, 1e-13);
+    close(optimum_of_magnitude(&turned, (0.0, 2.0), 1e6).unwrap().value, both(0.25), 1e-13);
     // A window of 1 s has 0.75 s of it loaded, which is worth less than one plateau.
     close(optimum(&near, (0.0, 2.0), 1.0).value, 0.5, 1e-13);
     let far = steps(&[(0.5, 1.0), (1.0, 0.0), (0.5, 1.0)]);
@@ -167,7 +172,7 @@ fn the_level_of_a_single_hump_and_the_search_through_all_intervals_agree() {
     for (name, hump) in humps {
         let pulse = signal(1.0, 7, hump);
         for cap in [1e9, 0.9, 0.5, 0.2, 0.03] {
-            let area = Area::new(&pulse, (0.0, 1.0));
+            let area = Area::new(&pulse, (0.0, 1.0), Sense::Magnitude);
             let own = hump::optimum(&area, cap).unwrap();
             let all = searched(&area, (0.0, 1.0), cap);
             assert!(
@@ -198,5 +203,30 @@ fn a_ramp_that_ends_with_a_jump_is_its_own_interval_in_part() {
 #[test]
 fn two_humps_are_none() {
     let pulse = signal(1.0, 7, |t| (2.0 * PI * t).sin().powi(2) + 0.1 * t);
-    assert_eq!(hump::optimum(&Area::new(&pulse, (0.0, 1.0)), 1e9), None);
+    assert_eq!(hump::optimum(&Area::new(&pulse, (0.0, 1.0), Sense::Magnitude), 1e9), None);
+}
+
+#[test]
+fn a_swing_back_takes_from_the_mean_whichever_way_the_signal_points() {
+    // A grid over all intervals is the judge: of a ringing that dies away, and of it turned about.
+    let ringing = |t: f64| (-1.5 * t).exp() * ((9.0 * t).sin() + 0.4 * (41.0 * t).sin());
+    for sign in [1.0, -1.0] {
+        let pulse = signal(3.0, 60, |t| sign * ringing(t));
+        for cap in [0.1, 0.4, 2.0] {
+            let found = optimum(&pulse, (0.0, 3.0), cap);
+            let area = Area::new(&pulse, (0.0, 3.0), Sense::Along(1.0));
+            let steps = 900_u32;
+            let at = |step: u32| 3.0 * f64::from(step) / f64::from(steps);
+            let all = (0..steps).flat_map(|i| (i + 1..=steps).map(move |j| (at(i), at(j))));
+            let all = all.filter(|own| own.1 - own.0 <= cap);
+            let value =
+                |own: (f64, f64)| criterion(area.between(own.0, own.1).abs(), own.1 - own.0);
+            let best = all.map(value).fold(0.0, f64::max);
+            assert!(found.value >= best * (1.0 - 1e-12), "{} < {best}", found.value);
+            assert!(found.value <= best * 1.01, "{} > {best}", found.value);
+            assert!(found.threshold <= 0.0, "cap {cap}: {}", found.threshold);
+            let magnitude = optimum_of_magnitude(&pulse, (0.0, 3.0), cap).unwrap();
+            assert!(magnitude.value >= found.value * (1.0 - 1e-12));
+        }
+    }
 }

@@ -3,6 +3,8 @@
 mod alone;
 mod among;
 mod asked;
+mod figures;
+mod files;
 mod pressed;
 mod scene;
 mod scene_words;
@@ -10,6 +12,7 @@ mod section;
 mod shown;
 mod solver;
 mod target;
+mod watched;
 mod words;
 mod written;
 
@@ -24,14 +27,15 @@ use serde::Serialize;
 
 use self::{
     asked::{Asked, Measured, asked},
+    files::{Out, write_model, write_scene},
     words::{Units, branches, comments, determined, ends, notes, records, warnings},
 };
 use crate::{
     args::{Switch, ValueArguments, frequency_class, paddings, share, shift},
     error::{CliError, Status},
+    folder::Staged,
     input::Input,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
-    part::write_text,
     terminal::{Terminal, note},
 };
 
@@ -109,8 +113,9 @@ pub(crate) struct FitArguments {
     seed: u64,
     #[command(flatten)]
     values: ValueArguments,
-    /// File for the scene with what was fitted.
-    #[arg(long, value_name = "FILE")]
+    /// File for the scene with what was fitted, if it ends in `.toml`; else a folder for that, figures of all records,
+    /// their rows as CSV, result.json, and report.html with everything on one page.
+    #[arg(long, value_name = "FILE.toml|DIR")]
     out: Option<PathBuf>,
     /// Overwrites the file if there is one.
     #[arg(long, requires = "out")]
@@ -168,6 +173,10 @@ struct Fitted {
     error: f64,
     records: Vec<Told>,
     fit: LinearFit,
+    /// The scene or model with what was found.
+    text: String,
+    /// What the command line asks for, in words.
+    asked: Vec<(&'static str, String)>,
 }
 
 impl Fitted {
@@ -185,13 +194,13 @@ pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status
     let Some(input) = input.as_ref().filter(|_| arguments.fits_numbers()) else {
         return fit_model(arguments, input.as_ref(), terminal);
     };
+    let (folder, file) = Out::split(Out::of(arguments)?);
     let fitted = scene::fitted(arguments, input, terminal)?;
-    emit(&fitted, arguments.json, None, terminal)?;
-    if let Some(path) = &arguments.out {
-        write_text(path, &fitted.scene_text(&fitted.comments()), arguments.force)?;
-        note(&format!("wrote {}", path.display()));
-    }
-    Ok(Status::Done)
+    emit(&fitted, arguments.json, folder, terminal)?;
+    write_scene(file, &fitted.scene_text(&fitted.comments()), |path| {
+        format!("wrote {}", path.display())
+    })?;
+    Ok(if fitted.fit.is_stopped { Status::RunFailed } else { Status::Done })
 }
 
 fn fit_model(
@@ -199,6 +208,7 @@ fn fit_model(
     input: Option<&Input>,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
+    let (folder, file) = Out::split(Out::of(arguments)?);
     let name = &arguments.to[0].target;
     if let Some(other) = arguments.to.iter().find(|own| own.target != *name) {
         let reason = format!("`{name}` is fitted already: one model at a time");
@@ -223,22 +233,23 @@ fn fit_model(
         fit_spectrum(&records, settings).map_err(|fault| wrong(fault, &arguments.to, &measured))?;
     let told = arguments.to.iter().zip(measured);
     let told = told.map(|(asked, own)| Told { file: asked.file.clone(), what: own.what });
-    let fitted = Fitted {
+    let mut fitted = Fitted {
         name: name.clone(),
         is_material,
         error: arguments.error,
         records: told.collect(),
         fit,
+        text: String::new(),
+        asked: arguments.in_words(),
     };
     let model = written::model(&fitted.fit)
         .ok_or_else(|| CliError::OutOfRange { word: fitted.name.clone() })?;
     let scene = input.map(|own| (own, &arguments.values.set[..]));
-    let text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
-    emit(&fitted, arguments.json, None, terminal)?;
-    if let Some(path) = &arguments.out {
-        write_text(path, &text, arguments.force)?;
-        note(&format!("wrote {0}; its model is `{0}:{name}`", path.display()));
-    }
+    fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
+    emit(&fitted, arguments.json, folder, terminal)?;
+    write_scene(file, &fitted.text, |path| {
+        format!("wrote {0}; its model is `{0}:{name}`", path.display())
+    })?;
     Ok(Status::Done)
 }
 
@@ -271,6 +282,10 @@ impl Study for Fitted {
 
     fn notes(&self) -> Vec<String> {
         notes(self)
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        write_model(files, self)
     }
 
     fn object(&self) -> impl Serialize {

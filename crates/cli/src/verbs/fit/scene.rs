@@ -2,10 +2,11 @@
 
 use dashpot_analysis::Solve as _;
 use dashpot_fit::network::{
-    Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Test, fit,
+    Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Search, Test,
+    fit_watched,
 };
 use dashpot_scene::{
-    ScatteredNumber, Scene, Tunables, Variation, read,
+    Posed, ScatteredNumber, Scene, Tunables, Variation, read,
     units::{parse_quantity, si_unit},
 };
 
@@ -16,6 +17,7 @@ use super::{
     shown::{Shown, shown},
     solver::{Poser, Solver},
     target::{Compared, Target, check_alone, targets},
+    watched::Progress,
 };
 use crate::{
     args::Switch,
@@ -70,6 +72,10 @@ pub(super) struct FittedScene {
     /// Among which forms of a model this one was chosen.
     pub(super) among: Option<Among>,
     replaced: Option<Replaced>,
+    /// The network with what was found, where it can be solved.
+    pub(super) fitted: Option<Posed>,
+    /// What the command line asks for, in words.
+    pub(super) asked: Vec<(&'static str, String)>,
     tunables: Tunables,
 }
 
@@ -77,6 +83,7 @@ pub(super) struct FittedScene {
 pub(super) struct Plan<'p> {
     pub(super) arguments: &'p FitArguments,
     pub(super) input: &'p Input,
+    terminal: Terminal,
     pub(super) scene: Scene,
     pub(super) tunables: Tunables,
     numbers: Vec<Varied>,
@@ -133,7 +140,7 @@ impl<'p> Plan<'p> {
         }
         let known = own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0)));
         let known = list(known);
-        Ok(Self { arguments, input, scene, tunables, numbers, curves, known, tests })
+        Ok(Self { arguments, input, terminal, scene, tunables, numbers, curves, known, tests })
     }
 
     /// What poses the scene of each test, with a form in the place of a model of it.
@@ -182,7 +189,9 @@ impl<'p> Plan<'p> {
             is_robust: self.arguments.robust == Switch::On,
             profile,
         };
-        let fit = searched(&begun, &self.tests, settings, (&posers, &self.curves));
+        let progress = Progress::new(self.tests.len(), self.terminal);
+        let of = (&posers[..], &self.curves[..]);
+        let fit = searched((&begun, &self.tests), settings, of, &progress);
         fit.map_err(|fault| wrong(&fault, &self.curves))
     }
 
@@ -213,7 +222,10 @@ impl<'p> Plan<'p> {
             replaced: replaced.as_ref(),
             set: self.arguments.values.set.clone(),
         };
-        let measures = measures(&whole, &fit);
+        let measures = if fit.is_stopped { Vec::new() } else { measures(&whole, &fit) };
+        let found: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
+        let fitted = whole.posed(&found).ok();
+        let asked = self.arguments.in_words();
         drop(posers);
         let Self { scene, tunables, curves, known, tests, .. } = self;
         Ok(FittedScene {
@@ -227,6 +239,8 @@ impl<'p> Plan<'p> {
             fit,
             among,
             replaced,
+            fitted,
+            asked,
             tunables,
         })
     }
@@ -246,10 +260,10 @@ fn unvaried(
 
 /// Searches the numbers: with one compiled form of each test where full runs agree with it at what was found.
 fn searched(
-    begun: &[Number],
-    tests: &[Test],
+    (begun, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
     (posers, curves): (&[Poser<'_>], &[(Asked, Target)]),
+    progress: &Progress,
 ) -> Result<NetworkFit, NetworkFault> {
     let point = |own: &'_ Poser<'_>, values: &[f64]| own.point(values);
     let points = posers.iter().map(|own| move |values: &[f64]| point(own, values));
@@ -271,7 +285,11 @@ fn searched(
         (Some(own), _) => own.curve(values),
         (None, Compared::Output(own)) => Err(format!("`{}` has no run", own.key())),
     };
-    let found = fit(begun, tests, settings, &model)?;
+    let watch = |own: Search| progress.show(own);
+    let found = fit_watched(begun, tests, settings, &model, &watch)?;
+    if found.is_stopped {
+        return Ok(found);
+    }
     let is_alike = |(at, own): (usize, &Option<Solver<'_>>)| {
         let values = found.numbers.iter().map(|own| own.value);
         let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
@@ -279,7 +297,7 @@ fn searched(
     };
     // All are asked: each that does not agree goes on with full runs.
     let unlike = solvers.iter().enumerate().filter(|own| !is_alike(*own)).count();
-    if unlike == 0 { Ok(found) } else { fit(begun, tests, settings, &model) }
+    if unlike == 0 { Ok(found) } else { fit_watched(begun, tests, settings, &model, &watch) }
 }
 
 /// Within which values a number that was measured besides is looked for.

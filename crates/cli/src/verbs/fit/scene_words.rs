@@ -6,11 +6,14 @@ use serde::Serialize;
 
 use super::{
     among::Among,
+    files::write_fitted_scene,
     scene::{FittedScene, Varied},
     shown::Shown,
     target::Compared,
 };
 use crate::{
+    error::CliError,
+    folder::Staged,
     input::title,
     numbers::{percent_signed, quantity, significant},
     output::{Pairs, Study, Text, VERSION, list, object},
@@ -27,6 +30,9 @@ const MISSED: f64 = 0.05;
 const BEYOND: f64 = 0.01;
 /// What is left of a record in parts of its noise, beyond which it is not noise alone.
 const NOISIER: f64 = 1.5;
+/// What is said of a search that an interrupt ended.
+const STOPPED: &str = "not finished: the search was interrupted. These numbers are the best that it had met, and no \
+                       minimum; intervals are those of the covariance there, and nothing was left out";
 /// More others are not listed.
 const MOST_OTHERS: usize = 3;
 
@@ -139,7 +145,9 @@ impl FittedScene {
     fn said_first(&self) -> Vec<String> {
         let fit = &self.fit;
         let mut all: Vec<String> = list(self.among.iter().filter_map(Among::said_first));
-        if !fit.is_converged {
+        if fit.is_stopped {
+            all.push(STOPPED.to_owned());
+        } else if !fit.is_converged {
             all.push("the search has not converged: these numbers are not a minimum".to_owned());
         }
         for (at, own) in
@@ -274,6 +282,23 @@ impl FittedScene {
         told.collect()
     }
 
+    /// The answer in a few lines.
+    pub(super) fn verdict_lines(&self) -> Vec<String> {
+        let each = self.numbers.iter().zip(&self.fit.numbers).enumerate();
+        let each = each.map(|(at, (own, found))| {
+            let ([low, high], verdict) = (ends(own, found), self.verdict(at));
+            format!("{} = {} ({low} to {high}), {verdict}", own.name, value(own, found.value))
+        });
+        each.collect()
+    }
+
+    /// All tables.
+    pub(super) fn tables(&self) -> Vec<Table> {
+        let measures = (!self.measures.is_empty()).then(|| self.measures_table());
+        let own = [self.numbers_table(), self.tests_table()].into_iter();
+        own.chain(self.own_table()).chain(measures).collect()
+    }
+
     /// What stands above the scene.
     pub(super) fn comments(&self) -> Vec<String> {
         let tests = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
@@ -284,14 +309,9 @@ impl FittedScene {
                 curve.output.told(own.rms, FEW)
             )
         });
-        let head = format!("fitted to {}", tests.collect::<Vec<_>>().join(", "));
-        let numbers = self.numbers.iter().zip(&self.fit.numbers).enumerate();
-        let numbers = numbers.map(|(at, (own, found))| {
-            let [low, high] = ends(own, found);
-            let verdict = self.verdict(at);
-            format!("{} = {} ({low} to {high}), {verdict}", own.name, value(own, found.value))
-        });
-        [head].into_iter().chain(numbers).collect()
+        let unfinished = if self.fit.is_stopped { "not finished: " } else { "" };
+        let head = format!("{unfinished}fitted to {}", tests.collect::<Vec<_>>().join(", "));
+        [head].into_iter().chain(self.verdict_lines()).collect()
     }
 }
 
@@ -335,18 +355,17 @@ impl Study for FittedScene {
         text.warnings(&self.said_first());
         text.title(title(&self.scene));
         self.among.iter().for_each(|own| text.table(&own.table()));
-        text.table(&self.numbers_table());
-        text.table(&self.tests_table());
-        self.own_table().iter().for_each(|own| text.table(own));
-        if !self.measures.is_empty() {
-            text.table(&self.measures_table());
-        }
+        self.tables().iter().for_each(|own| text.table(own));
         text.blank();
         text.items(self.remarks());
     }
 
     fn notes(&self) -> Vec<String> {
         self.remarks()
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        write_fitted_scene(files, self)
     }
 
     fn object(&self) -> impl Serialize {
@@ -423,6 +442,7 @@ impl Study for FittedScene {
             measures: measures.collect::<Pairs<_, _>>(),
             tests: list(tests),
             converged: self.fit.is_converged,
+            stopped: self.fit.is_stopped,
             floor: None::<f64>,
             among: self.among.as_ref().map(Among::object),
             starts: self.fit.reached,

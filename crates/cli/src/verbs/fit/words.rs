@@ -18,7 +18,7 @@ pub(super) struct Units {
     /// Of the dashpot.
     dashpot: &'static str,
     /// Of what answers a history.
-    answer: &'static str,
+    pub(super) answer: &'static str,
 }
 
 impl Units {
@@ -59,6 +59,16 @@ pub(super) fn determined(fitted: &Fitted) -> Table {
     Table::new("What the records determine", &["", "value", "from", "to", ""], rows)
 }
 
+/// The answer in a few lines: the ends of the spectrum.
+pub(super) fn verdict(fitted: &Fitted) -> Vec<String> {
+    let rows = determined(fitted).rows.into_iter();
+    let line = |own: Vec<String>| match &own[..] {
+        [name, value, low, high, verdict] => format!("{name} {value} ({low} to {high}), {verdict}"),
+        _ => own.join(" "),
+    };
+    rows.map(line).collect()
+}
+
 /// The table of the branches.
 pub(super) fn branches(fitted: &Fitted) -> Table {
     let units = fitted.units();
@@ -81,7 +91,7 @@ pub(super) fn branches(fitted: &Fitted) -> Table {
 }
 
 /// How far something is from a record.
-fn misfit(own: Misfit, record: &RecordFit, unit: &str) -> String {
+pub(super) fn misfit(own: Misfit, record: &RecordFit, unit: &str) -> String {
     match record.largest {
         None => format!("{} rms, {} at most", share(own.rms), share(own.largest)),
         Some(largest) => format!(

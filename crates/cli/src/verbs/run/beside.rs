@@ -234,6 +234,12 @@ impl MeasuredCurve {
                 "line {line}: the time {after} stands after {before}; sort the rows by time"
             )));
         }
+        if rows.len() < 2 {
+            let found = if rows.is_empty() { "no row" } else { "one row" };
+            return Err(read.unclear(format!(
+                "there is {found} of numbers in it, and a curve has two at least: look whether it was exported whole"
+            )));
+        }
         rows.iter_mut().for_each(|row| row.0 += shift);
         let (column, note) = (all.title(at), read.notes(&table));
         Ok(Self { file, sha256, column, output, rows, shift, cfc: None, note })

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     error::CliError,
     folder::Staged,
-    numbers::quantity,
+    numbers::{Unit, quantity},
     output::{PAGE, VERSION, csv, list},
 };
 
@@ -22,6 +22,8 @@ use crate::{
 const MEASURES: &str = "measures.csv";
 /// Milliseconds in a second.
 const MS: f64 = 1e3;
+/// Colour of the band about the mean.
+const BAND: usize = 5;
 /// Digits of a peak in a figure.
 const DIGITS: usize = 4;
 
@@ -141,22 +143,14 @@ fn chart(group: &Group<'_>) -> Chart {
         let points = line(own.channel.times(), own.channel.values(), start(own));
         series.push(Series { name: stem.clone(), points, stroke: stroke(Pattern::Solid) });
     }
-    if let Some(band) = Band::of(&tests) {
-        let edge = |sign: f64| {
-            let values = band.mean.iter().zip(&band.deviation).map(|own| own.0 + sign * own.1);
-            line(&band.times, &values.collect::<Vec<_>>(), 0.0)
-        };
-        let stroke = |pattern| Some(Stroke { colour: tests.len(), pattern });
-        let mean = line(&band.times, &band.mean, 0.0);
-        series.push(Series {
-            name: "mean".to_owned(),
-            points: mean,
-            stroke: stroke(Pattern::Solid),
-        });
-        for (name, sign) in [("mean + std dev", 1.0), ("mean − std dev", -1.0)] {
-            let name = name.to_owned();
-            series.push(Series { name, points: edge(sign), stroke: stroke(Pattern::Dotted) });
-        }
+    let band = Band::of(&tests);
+    let below = band.as_ref().map(|band| Box::new(off_the_mean(group, band, (shown, &unit))));
+    if let Some(band) = &band {
+        // The mean stands over the tests, and its band under them.
+        series.insert(0, deviations(band, band.mean.iter().copied(), (shown, &unit)));
+        let points = line(&band.times, &band.mean, 0.0);
+        let stroke = Some(Stroke { colour: 0, pattern: Pattern::Measured });
+        series.push(Series { name: "mean".to_owned(), points, stroke });
     }
     let markers = tests.iter().filter(|_| tests.len() == 1).filter_map(|own| {
         let peak = own.reading(Measure::Peak)?;
@@ -173,8 +167,41 @@ fn chart(group: &Group<'_>) -> Chart {
         y_label: format!("{name} ({})", unit.symbol),
         markers: markers.collect(),
         series,
+        below,
         ..Chart::default()
     }
+}
+
+/// The standard deviation about a curve, as a band.
+fn deviations(
+    band: &Band,
+    about: impl Iterator<Item = f64>,
+    ((from, to), unit): ((f64, f64), &Unit),
+) -> Series {
+    let each = band.times.iter().zip(about).zip(&band.deviation);
+    let each = each.filter(|((time, _), _)| (from..=to).contains(*time));
+    let rows = each.map(|((time, about), deviation)| {
+        (MS * time, unit.of(about - deviation), unit.of(about + deviation))
+    });
+    Series::band("± std dev", BAND, rows)
+}
+
+/// How far each test is off the mean.
+fn off_the_mean(group: &Group<'_>, band: &Band, (shown, unit): ((f64, f64), &Unit)) -> Chart {
+    let tests = group.analyses();
+    let of_test = |(colour, own): (usize, &&Analysis)| {
+        let start = origin(own, &tests);
+        let rows = band.times.iter().zip(&band.mean);
+        let rows = rows.filter(|row| (shown.0..=shown.1).contains(row.0));
+        let value = |time: f64| own.channel.value(time + start);
+        let points = rows.map(|(time, mean)| (MS * time, unit.of(value(*time) - mean))).collect();
+        let stroke = Some(Stroke { colour, pattern: Pattern::Solid });
+        Series { name: String::new(), points, stroke }
+    };
+    let mut all = deviations(band, band.mean.iter().map(|_| 0.0), (shown, unit));
+    all.name.clear();
+    let series = [all].into_iter().chain(tests.iter().enumerate().map(of_test)).collect();
+    Chart { y_label: format!("off the mean ({})", unit.symbol), series, ..Chart::default() }
 }
 
 /// Several tests stand over each other from the beginning of their contacts.

@@ -7,6 +7,7 @@ mod filtered;
 mod jumps;
 mod mixed;
 mod repeated;
+mod watched;
 
 /// A mass that strikes a Maxwell element at 1 m/s: `F″ + (k/c) F′ + (k/m) F = 0`, `F′(0) = k v`.
 struct Pulse {

@@ -1,5 +1,6 @@
 //! The documents of a scene: its own, and those whose models it uses.
 
+mod mme;
 pub(crate) mod models;
 pub(crate) mod tables;
 
@@ -78,7 +79,9 @@ impl Library {
     pub(crate) fn paths(&self) -> Vec<String> {
         let models = self.files.iter().filter(|own| own.1.is_some()).map(|own| own.0);
         let tables = self.tables.iter().filter(|own| own.1.is_ok()).map(|own| own.0);
-        let mut all: Vec<String> = models.chain(tables).cloned().collect();
+        let channels = self.tables.values().filter_map(|own| own.as_ref().ok());
+        let channels = channels.flat_map(|own| &own.parts);
+        let mut all: Vec<String> = models.chain(tables).chain(channels).cloned().collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -11,7 +11,9 @@ use dashpot_network::{
     composites::COMPOSITES, elements::ELEMENTS, parameters::registered, waveforms::WAVEFORMS,
 };
 
-use super::{Library, Loader, MAX_FILES, beside};
+use dashpot_signal::iso_mme::MmeChannel;
+
+use super::{Library, Loader, MAX_FILES, beside, mme, mme::MmeTest};
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds,
@@ -35,6 +37,9 @@ pub(crate) struct TableFile {
     pub(crate) number: u32,
     /// Its text.
     pub(crate) source: Arc<Source>,
+    /// Its channels, where it is a test in ISO-MME, and the paths of their files.
+    pub(crate) channels: Option<Vec<MmeChannel>>,
+    pub(super) parts: Vec<String>,
     /// What became of it, each told once.
     remarks: RefCell<Vec<Remark>>,
 }
@@ -100,10 +105,18 @@ impl Library {
                 0..=MAX_BYTES => Ok(bytes),
                 count => Err(format!("it has {count} bytes; the limit is 64 MB")),
             });
-            let file = bytes.map(|bytes| {
+            let test = match loader.filter(|_| bytes.is_ok() && mme::is_one(&path)) {
+                Some(loader) => mme::read(&path, loader).map(Some),
+                None => Ok(None),
+            };
+            let file = bytes.and_then(|own| Ok((own, test?))).map(|(bytes, test)| {
                 let source = Arc::new(Source::new(&*path, &*table_text(&bytes)));
                 let number = faults.add_source(Arc::clone(&source));
-                TableFile { number, source, remarks: RefCell::default() }
+                let (channels, parts) = match test {
+                    Some(MmeTest { channels, paths }) => (Some(channels), paths),
+                    None => (None, Vec::new()),
+                };
+                TableFile { number, source, channels, parts, remarks: RefCell::default() }
             });
             self.tables.insert(path, file);
         }

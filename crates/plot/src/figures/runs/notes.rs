@@ -1,9 +1,9 @@
 //! What stands below the heading of a figure of runs: where in the run it is, what is left out and cut off.
 
 use super::{
+    super::unit::{self, Unit},
     RunSeries,
     markers::MOST_LISTED,
-    unit::{self, Unit},
 };
 
 /// What stands below a heading: which part of the run is shown, what is left out and cut off.

@@ -1,8 +1,8 @@
 //! Markers of runs: on their curves, and one for all that happens at one place.
 
-use super::run_series::Of;
-use super::unit::Unit;
-use super::{Quantity, RunMarker, RunMarkerKind, RunSeries};
+use super::super::unit::Unit;
+use super::curves::Quantity;
+use super::{Of, RunMarker, RunMarkerKind, RunSeries};
 use crate::Marker;
 use crate::text_metrics::columns;
 

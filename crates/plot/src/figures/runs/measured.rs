@@ -1,6 +1,6 @@
 //! Measured curves over those of runs.
 
-use super::{Of, RunSeries, unit::Unit};
+use super::{super::unit::Unit, Of, RunSeries};
 use crate::{Pattern, Series, Stroke};
 
 /// A curve that was measured, over time.

@@ -1,9 +1,9 @@
 //! The plain numbers of one run that figures are drawn from.
 
+use super::super::unit::{self, Unit};
 use super::MeasuredSeries;
-use super::Quantity;
+use super::curves::Quantity;
 use super::markers::listed;
-use super::unit::{self, Unit};
 use crate::{Direction, ReferenceLine};
 
 /// Sampled results of one run, in SI units.

@@ -1,0 +1,156 @@
+//! What `fit` writes: a scene into a file, or all that it says into a folder.
+
+use std::{
+    ffi::OsStr,
+    path::{Path, PathBuf},
+};
+
+use dashpot_plot::{Report, ReportFigure, Table};
+
+use super::{
+    FitArguments, Fitted,
+    figures::{self, names, of_model, of_scene},
+    scene::FittedScene,
+    words,
+};
+use crate::{
+    args::Switch,
+    error::CliError,
+    folder::{Folder, Staged},
+    input::title,
+    numbers::share,
+    origin,
+    output::{PAGE, Study as _, VERSION, list},
+    part::write_text,
+    said, sketch,
+    terminal::note,
+};
+
+/// The scene or model with what was found, in a folder.
+const SCENE: &str = "fitted.toml";
+
+/// Where what was found goes.
+pub(super) enum Out {
+    /// A scene, overwritten if that is asked for.
+    File(PathBuf, bool),
+    /// Everything.
+    Folder(Folder),
+}
+
+impl Out {
+    /// What the command line asks for: a file that ends in `.toml`, or a folder.
+    pub(super) fn of(arguments: &FitArguments) -> Result<Option<Self>, CliError> {
+        let Some(path) = &arguments.out else { return Ok(None) };
+        if path.extension() == Some(OsStr::new("toml")) {
+            return Ok(Some(Self::File(path.clone(), arguments.force)));
+        }
+        let own = [SCENE, PAGE].map(str::to_owned);
+        let all = names(arguments.to.len()).into_iter().chain(own);
+        Ok(Folder::wanted(Some(path.as_path()), all)?.map(Self::Folder))
+    }
+
+    /// The folder, if it is one, and the file otherwise.
+    pub(super) fn split(own: Option<Self>) -> (Option<Folder>, Option<(PathBuf, bool)>) {
+        match own {
+            Some(Self::Folder(folder)) => (Some(folder), None),
+            Some(Self::File(path, force)) => (None, Some((path, force))),
+            None => (None, None),
+        }
+    }
+}
+
+/// Writes a scene into a file, and tells of it.
+pub(super) fn write_scene(
+    file: Option<(PathBuf, bool)>,
+    text: &str,
+    told: impl FnOnce(&Path) -> String,
+) -> Result<(), CliError> {
+    let Some((path, force)) = file else { return Ok(()) };
+    write_text(&path, text, force)?;
+    note(&told(&path));
+    Ok(())
+}
+
+impl FitArguments {
+    /// What the command line asks for, in words, for a page.
+    pub(super) fn in_words(&self) -> Vec<(&'static str, String)> {
+        let on = |own: Switch| if own == Switch::On { "on" } else { "off" };
+        let mut all: Vec<(&str, String)> = Vec::new();
+        all.extend(self.to.iter().map(|own| ("to", own.text.clone())));
+        all.extend(self.vary.iter().map(|own| ("vary", own.clone())));
+        all.extend(self.values.set.iter().map(|own| ("set", format!("{}={}", own.0, own.1))));
+        all.extend(self.cfc.map(|own| ("cfc", own.class().to_string())));
+        all.extend(self.cfc.map(|_| ("padding", self.padding.clone())));
+        all.extend(self.noise.clone().map(|own| ("noise", own)));
+        all.extend(self.gain.map(|own| ("gain", share(own))));
+        all.push(("shift", on(self.shift).to_owned()));
+        if self.vary.is_empty() {
+            all.push(("error", share(self.error)));
+        } else {
+            all.push(("offset", on(self.offset).to_owned()));
+            all.push(("robust", on(self.robust).to_owned()));
+            all.push(("starts", format!("{}, seed {}", self.starts, self.seed)));
+        }
+        all
+    }
+}
+
+/// Adds all files of a scene that was fitted but the result.
+pub(super) fn write_fitted_scene(
+    files: &mut Staged<'_>,
+    fitted: &FittedScene,
+) -> Result<(), CliError> {
+    let text = fitted.scene_text(&fitted.comments());
+    files.add(SCENE, &text)?;
+    let figures = figures::write(files, &of_scene(fitted))?;
+    let notes = said::notes(&fitted.scene).into_iter().chain(fitted.notes());
+    let known = fitted.warnings();
+    let details = [settings(&fitted.asked, origin::rows(&fitted.scene))];
+    let drawn = fitted.fitted.as_ref();
+    files.add(
+        PAGE,
+        Report {
+            title: title(&fitted.scene).to_owned(),
+            warnings: list(said::warnings(&fitted.scene, &known).into_iter().chain(known)),
+            verdict: fitted.verdict_lines(),
+            tables: with_rows(fitted.tables().into_iter().chain([Table::list("Remarks", notes)])),
+            network: drawn.and_then(|own| sketch::of_network(&own.network, own.run.duration)),
+            figures,
+            details: details.to_vec(),
+            scene_text: text,
+        }
+        .html(),
+    )
+}
+
+/// Adds all files of a model that was fitted but the result.
+pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted) -> Result<(), CliError> {
+    files.add(SCENE, &fitted.text)?;
+    let figures: Vec<ReportFigure> = figures::write(files, &of_model(fitted))?;
+    let tables = [words::records(fitted), words::determined(fitted), words::branches(fitted)];
+    let notes = Table::list("Remarks", words::notes(fitted));
+    let own = vec!["dashpot".to_owned(), VERSION.to_owned()];
+    files.add(
+        PAGE,
+        Report {
+            title: fitted.name.clone(),
+            warnings: words::warnings(fitted),
+            verdict: words::verdict(fitted),
+            tables: with_rows(tables.into_iter().chain([notes])),
+            network: None,
+            figures,
+            details: vec![settings(&fitted.asked, vec![own])],
+            scene_text: fitted.text.clone(),
+        }
+        .html(),
+    )
+}
+
+fn with_rows(tables: impl Iterator<Item = Table>) -> Vec<Table> {
+    list(tables.filter(|own| !own.rows.is_empty()))
+}
+
+fn settings(asked: &[(&'static str, String)], further: Vec<Vec<String>>) -> Table {
+    let rows = asked.iter().map(|(name, value)| vec![(*name).to_owned(), value.clone()]);
+    Table::new("Settings", &[], rows.chain(further))
+}
