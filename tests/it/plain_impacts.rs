@@ -61,7 +61,8 @@ fn assert_alike(own: &RunReport, other: &RunReport) {
         assert_eq!(one.window_wish, two.window_wish, "{}", one.key);
         assert_eq!(one.parameters, two.parameters, "{}", one.key);
         for (one, two) in one.time.iter().zip(two.time) {
-            assert!((one - two).abs() <= 1e-3 * two, "{one} and {two}");
+            // A peak is flat: its time is known to the root of what its value is.
+            assert!((one - two).abs() <= 2e-2 * two, "{one} and {two}");
         }
     }
     let what = |run: &RunReport| -> Vec<String> {
@@ -131,7 +132,7 @@ fn steps_are_counted_and_no_clock_decides() {
     let own = run(&on_foam(Some(0.8), 40.0), &settings);
     let work = own.solver.statistics;
     assert_eq!((own.solver.rtol, own.solver.solves_for_error), (Some(1e-6), 1));
-    assert!(work.accepted < 60 && work.rhs_calls < 1000, "{work:?}");
+    assert_eq!((work.accepted, work.rejected, work.rhs_calls), (19, 6, 374));
     let again = run(&on_foam(Some(0.8), 40.0), &settings);
     for (one, two) in own.measures.iter().zip(&again.measures) {
         assert_eq!(one.value.map(f64::to_bits), two.value.map(f64::to_bits));
