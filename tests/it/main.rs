@@ -54,6 +54,7 @@ mod order;
 mod pads;
 mod partial;
 mod pictures;
+mod plain_impacts;
 mod power_laws;
 mod properties;
 mod random_networks;

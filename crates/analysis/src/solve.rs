@@ -17,6 +17,7 @@ use dashpot_network::{
 use crate::{
     RunError, RunReport, Segmentation, SolveSettings, Warning,
     partial::reduced,
+    plain,
     run::{solve_assembly, words},
 };
 
@@ -103,6 +104,9 @@ pub fn solve_partial(
     let started = Instant::now();
     let mut report = match settings.accuracy.neglect_below {
         None => {
+            if let Some(report) = plain::solve(network, assembly, settings, observer) {
+                return report;
+            }
             let report = solve_assembly(assembly, &words(network), settings, observer)?;
             with_segments(network, report, settings, observer)?
         }

@@ -1,6 +1,7 @@
 //! The report of a run, and how far two of them are apart.
 
 pub(crate) mod compression;
+pub(crate) mod curves;
 pub(crate) mod event;
 pub(crate) mod excerpt;
 pub(crate) mod judged;
@@ -12,7 +13,7 @@ pub(crate) mod warning;
 
 use std::{collections::HashMap, sync::Arc, time::Duration};
 
-use dashpot_dae::{Extremum, Statistics, Trajectory};
+use dashpot_dae::{Extremum, Statistics};
 use dashpot_network::{
     Assembly, NodeOutputs,
     parameters::{Value, WindowWish},
@@ -20,8 +21,8 @@ use dashpot_network::{
 use serde::Serialize;
 
 use crate::{
-    EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport, Segmentation,
-    Solution, Warning,
+    Curves, EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport,
+    Segmentation, Solution, Warning,
 };
 
 /// Error in parts of a value whose first digit is just known.
@@ -61,8 +62,8 @@ pub struct RunReport {
     pub scatter: Option<Box<ScatterReport>>,
     /// The equations.
     pub assembly: Arc<Assembly>,
-    /// The solution that is reported, the finest one.
-    pub trajectory: Trajectory,
+    /// The solution that is reported, the finest one; of a plain impact it is made when it is looked at.
+    pub trajectory: Curves,
 }
 
 /// How a run was solved.

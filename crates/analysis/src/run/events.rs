@@ -14,7 +14,7 @@ use crate::{
 
 /// Conditions that were met, contacts that end, and what switched, with what is known of the errors of their times:
 /// of what the trajectory holds, and of the release of an element.
-pub(super) fn collect(
+pub(crate) fn collect(
     run: &Run,
     assembly: &Assembly,
     trajectory: &Trajectory,

@@ -2,8 +2,8 @@
 
 pub(crate) mod attempts;
 
-mod events;
-mod outcome;
+pub(crate) mod events;
+pub(crate) mod outcome;
 mod preloads;
 mod warnings;
 

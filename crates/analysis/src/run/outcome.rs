@@ -108,7 +108,7 @@ pub(super) fn report(
         scatter: None,
         only: Vec::new(),
         assembly: Arc::clone(assembly),
-        trajectory: outcome.solved.trajectory,
+        trajectory: outcome.solved.trajectory.into(),
     })
 }
 
@@ -177,7 +177,7 @@ pub(super) fn measures(
 }
 
 /// What is reported of a measure.
-fn measure_report(
+pub(crate) fn measure_report(
     entry: &Selected,
     reading: Reading,
     error: Option<f64>,

@@ -9,10 +9,8 @@ use dashpot_numerics::{
     small::{apply, dot},
 };
 
-use super::{
-    ScenePoint, instantiated::MOST_STATES, products::Products, scene_point::ScenePoint as Posed,
-    stepped::Stepped, sums::Recorder,
-};
+use super::{ScenePoint, products::Products, scene_point::ScenePoint as Posed, sums::Recorder};
+use crate::plain::{MOST_STATES, stepped::Stepped};
 
 /// A step of a linear scene in units of the shortest time of its system; see the panels of [`Recorder`].
 const STEP: f64 = 3.0;

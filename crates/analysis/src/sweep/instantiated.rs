@@ -4,12 +4,16 @@ use dashpot_network::{ConnectionOutputs, ParametricSystem};
 
 use super::{
     Column, Estimates, Grid, Pose, ScenePoint as Scene, SweepOptions,
-    scene_point::Wanted,
-    shown::{Shown, shown_by},
     stamper::{Sized, Stamper},
     table::Table,
 };
-use crate::measures::selection::select;
+use crate::{
+    measures::selection::select,
+    plain::{
+        MOST_STATES,
+        shown::{Shown, Wanted, shown_by},
+    },
+};
 
 /// How the points of a sweep are solved by instantiating.
 #[derive(Debug)]
@@ -111,6 +115,3 @@ impl<'g> Plan<'g> {
         Some(Box::new(Sized::<N>::of(self)?))
     }
 }
-
-/// The largest number of unknowns that are instantiated.
-pub(super) const MOST_STATES: usize = 12;

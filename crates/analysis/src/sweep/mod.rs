@@ -24,7 +24,6 @@ mod scene_point;
 mod serialized;
 mod shown;
 mod stamper;
-mod stepped;
 mod sums;
 mod table;
 

@@ -16,9 +16,10 @@ use dashpot_numerics::{
 
 use super::{
     bracket::{Flank, Step},
-    scene_point::{Figure, Impact, ScenePoint, Wanted},
+    scene_point::{Figure, Impact, ScenePoint},
     sums::{Integrals, Recorder},
 };
+use crate::plain::shown::Wanted;
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
 const COARSE: f64 = 3.0;

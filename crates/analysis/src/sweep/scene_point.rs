@@ -20,19 +20,6 @@ pub(super) struct ScenePoint<'s, const N: usize> {
     pub(super) opens: bool,
 }
 
-/// Which integrals are wanted.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Wanted {
-    /// `∫ F^n dt` with this exponent.
-    pub(super) power: Option<f64>,
-    /// `∫ F dt` and `∫ F ẏ dt`.
-    pub(super) work: bool,
-    /// `∫ F ẏ dt` up to the end of the run as well.
-    pub(super) work_at_end: bool,
-    /// The force over time.
-    pub(super) course: bool,
-}
-
 /// A number and how far it may be off.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Figure {

@@ -7,23 +7,18 @@ use super::{
     instantiated::Plan,
     report::Notice,
     scene_point::{Figure, ScenePoint},
-    stepped::{Course, Stepped},
     table::Besides,
 };
-use crate::report::compression::is_as_thick;
+use crate::{
+    plain::{
+        bars::{self, TOLERANCES, with_bars},
+        stepped::{Course, Stepped},
+    },
+    report::compression::is_as_thick,
+};
 
 /// A value of a linear scene that is less certain than this part of itself is left to the full solution.
 const LOOSEST: f64 = 1e-6;
-/// Tolerances of scenes that are not linear, in parts of the accuracy that is wanted.
-const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
-/// The finest of them.
-const FINEST: f64 = 1e-13;
-/// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
-/// agree by chance.
-const DOUBT: f64 = 0.1;
-/// What rounding leaves, in parts of a value.
-const ROUNDING: f64 = 1e-12;
-
 /// At least so many points of a group have errors of their own at some only.
 const FEWEST: usize = 6;
 /// The errors of all values at points between, in parts of the largest relative one, as any of those may be small by
@@ -189,24 +184,15 @@ impl<const N: usize> Sized<'_, N> {
     /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and the last
     /// tolerance.
     fn estimated(&self, values: &mut [f64], errors: &mut [f64]) -> Option<(Notice, usize)> {
-        let (plan, stepped) = (self.plan, self.stepped());
-        let mut before = plan.seen(&stepped.follow(self.tolerance(0))?, &self.numbers);
-        for level in 1..TOLERANCES.len() {
-            let course = stepped.follow(self.tolerance(level))?;
-            let seen = plan.seen(&course, &self.numbers);
-            let differences = || seen.iter().zip(&before).map(|(one, other)| (one - other).abs());
-            let relative = differences().zip(&seen).map(|(off, value)| off / value.abs());
-            let most = relative.fold(0.0, f64::max);
-            for ((error, off), value) in errors.iter_mut().zip(differences()).zip(&seen) {
-                *error = off + (DOUBT * most + ROUNDING) * value.abs();
-            }
-            if self.suffice(&seen, errors) {
-                values.copy_from_slice(&seen);
-                return Some((self.noticed(&course), level));
-            }
-            before = seen;
-        }
-        None
+        let stepped = self.stepped();
+        let tolerances: [f64; TOLERANCES.len()] =
+            std::array::from_fn(|level| self.tolerance(level));
+        let read = |course: &Course<N>| self.plan.seen(course, &self.numbers);
+        let suffice = |values: &[f64], errors: &[f64]| self.suffice(values, errors);
+        let found = with_bars(&stepped, &tolerances, &read, &suffice)?;
+        values.copy_from_slice(&found.values);
+        errors.copy_from_slice(&found.errors);
+        Some((self.noticed(&found.course), found.others))
     }
 
     fn stepped(&self) -> Stepped<'_, N> {
@@ -218,10 +204,10 @@ impl<const N: usize> Sized<'_, N> {
     }
 
     fn tolerance(&self, level: usize) -> f64 {
-        (TOLERANCES[level] * self.plan.strictest()).max(FINEST)
+        bars::tolerance(level, self.plan.strictest())
     }
 
-    fn noticed(&self, course: &Course) -> Notice {
+    fn noticed(&self, course: &Course<N>) -> Notice {
         let time = self.plan.parametric.time_scale();
         let deepest = course.deepest;
         let error = self.plan.strictest() * deepest.value;

@@ -382,7 +382,7 @@ impl<'r> Found<'r> {
         let pulls = contact.is_some_and(|contact| {
             contact.is_glued
                 && contact.impact.contact == Contact::Released
-                && contact.impact.end < run.trajectory.t_end
+                && contact.impact.end < run.energy.time
         });
         let leaving = self.leaving(&measure.target);
         Some(Ending::Ended { measure, value, contact, pulls, leaving })

@@ -43,7 +43,10 @@ impl ParametricSystem {
         let own = Self {
             fingerprint,
             bodies: bodies.all.len(),
-            eliminated: order(bodies.all.len(), structure, &own.all),
+            eliminated: order(
+                (0..bodies.all.len()).map(|at| structure.cluster_of[at].is_some()).collect(),
+                &own.all,
+            ),
             placed,
             weighed,
             scales: of_unknowns.chain(repeat_n(1.0, own.slots - unknowns)).collect(),
@@ -53,6 +56,7 @@ impl ParametricSystem {
             time: scales.time,
             element: struck.element,
             impactor: struck.impactor,
+            face: struck.body,
             mass,
             force: force_parts(shape, &own.part_of, &own.all)?,
             deformation: difference(places, struck.ends)?,
@@ -99,7 +103,8 @@ impl Parts {
                 _ => (PartKind::Spring, 1),
             };
             let deformation = difference(places, ends)?;
-            own.all.push(Part { ends, number: own.numbers, kind, deformation });
+            let number = own.numbers;
+            own.all.push(Part { ends, primitive: at, number, kind, deformation });
             own.numbers += numbers;
         }
         Some(own)

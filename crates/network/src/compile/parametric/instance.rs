@@ -19,7 +19,7 @@ pub struct Instance<const N: usize> {
     /// The laws that are not linear.
     pub curves: Vec<CurveRow<N>>,
     net: Vec<[f64; N]>,
-    velocity: Vec<[f64; N]>,
+    pub(super) velocity: Vec<[f64; N]>,
     conductance: Vec<f64>,
     weights: Vec<f64>,
 }
@@ -133,7 +133,7 @@ impl ParametricSystem {
     }
 
     /// Differences of places over the unknowns \[m\].
-    fn in_metres<const N: usize>(&self, terms: &[(usize, f64)]) -> [f64; N] {
+    pub(super) fn in_metres<const N: usize>(&self, terms: &[(usize, f64)]) -> [f64; N] {
         let mut row = [0.0; N];
         terms.iter().for_each(|&(at, sign)| row[at] = sign * self.scales[at]);
         row

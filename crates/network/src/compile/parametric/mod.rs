@@ -14,6 +14,7 @@ mod fingerprint;
 mod first_phases;
 mod instance;
 mod reading;
+mod released;
 
 use std::collections::BTreeMap;
 
@@ -22,7 +23,7 @@ use self::{
     fingerprint::{Fingerprint, fingerprint},
     first_phases::FirstPhases,
 };
-pub use self::{curve::CurveRow, instance::Instance};
+pub use self::{curve::CurveRow, instance::Instance, released::PartRow};
 use super::{
     bodies::{Bodies, Role},
     scales::{Drives, Scales},
@@ -35,6 +36,8 @@ use crate::{Network, NodeId};
 #[derive(Debug, Clone)]
 struct Part {
     ends: [usize; 2],
+    /// Its place among the primitives of the network.
+    primitive: usize,
     /// Where its constant, or the first number of its law, stands among the numbers.
     number: usize,
     kind: PartKind,
@@ -111,6 +114,8 @@ pub struct ParametricSystem {
     /// Number of the element that the impactor touches.
     element: usize,
     impactor: NodeId,
+    /// The body of the impactor, and of what it touches.
+    face: usize,
     /// Where the mass of the impactor's body stands among the numbers.
     mass: usize,
     /// Parts whose forces add up to that of the element.

@@ -1,7 +1,7 @@
 //! What a form is read from: places, forces, and the order of elimination.
 
 use super::{Eliminated, Part};
-use crate::compile::{expand::Shape, row::Combination, structure::Structure, unknowns::Places};
+use crate::compile::{expand::Shape, row::Combination, unknowns::Places};
 
 /// The difference of the places of two bodies over the unknowns; `None` where it is not one of whole
 /// positions.
@@ -42,14 +42,14 @@ pub(super) fn force_parts(
     found.into_iter().next().flatten()
 }
 
-/// The order in which massless bodies are eliminated: the one with the fewest links first.
-pub(super) fn order(bodies: usize, structure: &Structure, parts: &[Part]) -> Vec<Eliminated> {
+/// The order in which massless bodies are eliminated, those that wait for it: the one with the fewest links first.
+pub(super) fn order(mut waits: Vec<bool>, parts: &[Part]) -> Vec<Eliminated> {
+    let bodies = waits.len();
     let mut links = vec![vec![false; bodies]; bodies];
     for part in parts.iter().filter(|part| part.is_dashpot()) {
         let [a, b] = part.ends;
         (links[a][b], links[b][a]) = (true, true);
     }
-    let mut waits: Vec<bool> = (0..bodies).map(|at| structure.cluster_of[at].is_some()).collect();
     let mut order = Vec::new();
     while let Some(body) = (0..bodies)
         .filter(|&at| waits[at])

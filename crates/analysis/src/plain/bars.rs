@@ -1,0 +1,72 @@
+//! How far off what is read off the steps of an impact may be: solutions at falling tolerances.
+
+use std::time::Instant;
+
+use dashpot_dae::Statistics;
+
+use super::stepped::{Course, Stepped};
+
+/// Tolerances in parts of the accuracy that is wanted.
+pub(crate) const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
+/// The finest of them.
+const FINEST: f64 = 1e-13;
+/// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
+/// agree by chance.
+const DOUBT: f64 = 0.1;
+/// What rounding leaves, in parts of a value.
+const ROUNDING: f64 = 1e-12;
+
+/// The last of some solutions.
+#[derive(Debug)]
+pub(crate) struct Found<const N: usize> {
+    pub(crate) values: Vec<f64>,
+    /// How far off each value may be.
+    pub(crate) errors: Vec<f64>,
+    pub(crate) course: Course<N>,
+    /// How many solutions there were besides.
+    pub(crate) others: usize,
+    /// Work of those.
+    pub(crate) work: Statistics,
+}
+
+/// The tolerance of this number for values that are to be so accurate.
+pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
+    (TOLERANCES[level] * accuracy).max(FINEST)
+}
+
+/// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value
+/// differs from that before by its error. `None` where a solution is not of the plain kind, or none suffices.
+pub(crate) fn with_bars<const N: usize>(
+    stepped: &Stepped<'_, N>,
+    tolerances: &[f64],
+    read: &dyn Fn(&Course<N>) -> Vec<f64>,
+    suffice: &dyn Fn(&[f64], &[f64]) -> bool,
+) -> Option<Found<N>> {
+    let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
+    let first = stepped.follow(tolerances.next()?)?;
+    let (mut before, mut work) = (read(&first), first.track.work);
+    for (others, rtol) in (1..).zip(tolerances) {
+        let wall = begin.elapsed();
+        let course = stepped.follow(rtol)?;
+        let values = read(&course);
+        let differences = || values.iter().zip(&before).map(|(one, other)| (one - other).abs());
+        let relative = differences().zip(&values).map(|(off, value)| off / value.abs());
+        let most = relative.fold(0.0, f64::max);
+        let bar = |(off, value): (f64, &f64)| off + (DOUBT * most + ROUNDING) * value.abs();
+        let errors: Vec<f64> = differences().zip(&values).map(bar).collect();
+        if suffice(&values, &errors) {
+            work.wall = wall;
+            return Some(Found { values, errors, course, others, work });
+        }
+        added(&mut work, &course.track.work);
+        before = values;
+    }
+    None
+}
+
+/// Adds the work of another solution.
+pub(crate) fn added(sum: &mut Statistics, own: &Statistics) {
+    sum.accepted += own.accepted;
+    sum.rejected += own.rejected;
+    sum.rhs_calls += own.rhs_calls;
+}

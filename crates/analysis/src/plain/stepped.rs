@@ -1,0 +1,342 @@
+//! The impact of one scene whose laws are not all linear, by explicit steps of order 8.
+//!
+//! Each step hands on polynomials of the force, the deformation and its rate, until the force falls through
+//! zero, and the unknowns at the nodes of these. Everything else is read off them, and how far it may be off from
+//! a second solution at a coarser tolerance.
+
+use dashpot_dae::{Extremum, Panel, Signal, Statistics};
+use dashpot_network::{CurveRow, Instance};
+use dashpot_numerics::{
+    chebyshev::Interpolation,
+    dop853::{DEGREE, FURTHER, STAGES, Step},
+    small::{apply, apply_left, dot},
+};
+
+/// The first step in parts of the time in which the unknowns change by themselves.
+const FIRST: f64 = 0.01;
+/// Part of the step that the estimate of its error allows which is taken.
+const SAFETY: f64 = 0.9;
+/// What a step may be longer and shorter by than the one before.
+const GROWTH: (f64, f64) = (0.2, 6.0);
+/// Steps, with those that were rejected, after which a scene is left to other methods.
+const MOST: usize = 2000;
+/// By what part of itself the last step goes beyond the release, at most twice that.
+const OVERSHOOT: f64 = 0.02;
+/// A law may be stretched beyond its range by this part of it.
+const BEYOND: f64 = 1e-6;
+
+/// The unknowns, and the forces of the laws in their slots, at the nodes of a step.
+#[derive(Debug, Clone)]
+pub(crate) struct Nodes<const N: usize> {
+    start: f64,
+    end: f64,
+    pub(crate) values: [[f64; N]; DEGREE + 1],
+}
+
+impl<const N: usize> Nodes<N> {
+    fn of(step: &Step<N>, (start, end): (f64, f64), curves: &[CurveRow<N>]) -> Self {
+        let nodes = Interpolation::of_degree(DEGREE);
+        let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
+        let mut values = [[0.0; N]; DEGREE + 1];
+        for (at, own) in values.iter_mut().enumerate() {
+            *own = filled(curves, &step.at(place(at)));
+        }
+        Self { start, end, values }
+    }
+
+    /// When it ends.
+    pub(crate) fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// The polynomial of what is looked at over it.
+    pub(crate) fn panel(&self, look: &dyn Fn(&[f64; N]) -> f64) -> Panel {
+        let (mut values, mut own) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        values.iter_mut().zip(&self.values).for_each(|(own, z)| *own = look(z));
+        Interpolation::of_degree(DEGREE).coefficients(&values, &mut own);
+        Panel { start: self.start, end: self.end, coefficients: own.into() }
+    }
+}
+
+/// The steps of a solution, over dimensionless time.
+#[derive(Debug, Clone)]
+pub(crate) struct Track<const N: usize> {
+    pub(crate) steps: Vec<Nodes<N>>,
+    pub(crate) work: Statistics,
+}
+
+impl<const N: usize> Track<N> {
+    fn new() -> Self {
+        Self { steps: Vec::new(), work: Statistics::default() }
+    }
+
+    /// What is looked at, over time.
+    pub(crate) fn signal(&self, look: &dyn Fn(&[f64; N]) -> f64) -> Signal {
+        let panels = self.steps.iter().map(|step| step.panel(look)).collect();
+        Signal::new(panels, None, 0.0)
+    }
+
+    /// The unknowns at a time in the last step.
+    pub(crate) fn late(&self, time: f64) -> Option<[f64; N]> {
+        let last = self.steps.last()?;
+        let mut all = [0.0; N];
+        for (at, own) in all.iter_mut().enumerate() {
+            *own = last.panel(&|z| z[at]).value(time);
+        }
+        Some(all)
+    }
+
+    /// All nodes in order of time.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = &[f64; N]> {
+        self.steps.iter().flat_map(|step| &step.values)
+    }
+}
+
+/// What a solution shows of an impact, over dimensionless time.
+#[derive(Debug, Clone)]
+pub(crate) struct Course<const N: usize> {
+    /// The steps, of which the last one goes beyond the release.
+    pub(crate) track: Track<N>,
+    /// The force \[N\], from the start to the release.
+    pub(crate) force: Signal,
+    /// The rate of the deformation \[m/s\].
+    pub(crate) speed: Signal,
+    /// When the force falls through zero.
+    pub(crate) release: f64,
+    /// The largest force up to then …
+    pub(crate) strongest: Extremum,
+    /// … and the largest deformation \[m\].
+    pub(crate) deepest: Extremum,
+}
+
+/// A scene to be followed up to the dimensionless time `end`.
+pub(crate) struct Stepped<'s, const N: usize> {
+    pub(crate) instance: &'s Instance<N>,
+    /// How many unknowns stand before the slots.
+    pub(crate) unknowns: usize,
+    pub(crate) end: f64,
+}
+
+/// What is looked at: force, deformation and its rate, over the unknowns and slots.
+type Looks<const N: usize> = [[f64; 3]; N];
+
+impl<const N: usize> Stepped<'_, N> {
+    /// Follows it at a relative tolerance. `None` where the impact is not of the plain kind: the force does not
+    /// push from the start, or does not fall through zero within the run; and where a law leaves its range,
+    /// or the steps are too many.
+    pub(crate) fn follow(&self, rtol: f64) -> Option<Course<N>> {
+        let Instance { start, curves, .. } = self.instance;
+        let mut slopes = self.slopes();
+        let looks = self.looks();
+        let mut step = Step::from(*start, &mut slopes);
+        let mut most = start.map(f64::abs);
+        let (mut length, mut time) = (self.first_step(start, step.first_slopes()), 0.0);
+        let mut course: [Vec<Panel>; 3] = Default::default();
+        let mut track = Track::new();
+        let mut strongest = 0.0_f64;
+        if self.end.is_nan() || self.end <= 0.0 {
+            return None;
+        }
+        for _ in 0..MOST {
+            length = length.min(self.end - time);
+            step.attempt(length, &mut slopes);
+            track.work.rhs_calls += STAGES.len();
+            let mut error = step.error(self.unit(rtol, &most));
+            let mut seen = Seen::default();
+            let mut nodes = None;
+            if error <= 1.0 {
+                step.fit(&mut slopes);
+                track.work.rhs_calls += 1 + FURTHER.len();
+                let own = Nodes::of(&step, (time, time + length), curves);
+                seen = Seen::of(&own, curves, &looks);
+                let force = &seen.coefficients[0];
+                strongest = strongest.max(force[0].abs());
+                error = error.max(force[DEGREE].abs() / (rtol * strongest));
+                nodes = Some(own);
+            }
+            let factor = factor(error);
+            if error.is_nan() || error > 1.0 {
+                length *= factor.min(SAFETY);
+                track.work.rejected += 1;
+                continue;
+            }
+            // Beyond the release laws may have kinks that the step would smear.
+            let until = seen.release(length);
+            let is_far = |until: &f64| *until > 0.0 && until * (1.0 + 2.0 * OVERSHOOT) < length;
+            if let Some(until) = until.filter(is_far) {
+                length = until * (1.0 + OVERSHOOT);
+                continue;
+            }
+            if seen.is_beyond || until.is_some_and(|until| until <= 0.0) {
+                return None;
+            }
+            for (panels, coefficients) in course.iter_mut().zip(seen.coefficients) {
+                let coefficients = coefficients.into();
+                panels.push(Panel { start: time, end: time + length, coefficients });
+            }
+            track.steps.extend(nodes);
+            track.work.accepted += 1;
+            if until.is_some() {
+                return released(course, track);
+            }
+            time += length;
+            if time.is_nan() || time >= self.end {
+                return None;
+            }
+            most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));
+            length *= factor;
+            step.go_on();
+        }
+        None
+    }
+
+    /// Follows it from some unknowns on, without looking at its force, up to its end or until it `is_over`.
+    /// `None` where the steps are too many.
+    pub(crate) fn settle(
+        &self,
+        from: &[f64; N],
+        rtol: f64,
+        is_over: &dyn Fn(&Nodes<N>) -> bool,
+    ) -> Option<Track<N>> {
+        let curves = &self.instance.curves;
+        let mut slopes = self.slopes();
+        let mut step = Step::from(*from, &mut slopes);
+        let mut most = from.map(f64::abs);
+        let (mut length, mut time) = (self.first_step(from, step.first_slopes()), 0.0_f64);
+        let mut track = Track::new();
+        for _ in 0..MOST {
+            if time.is_nan() || time >= self.end {
+                return Some(track);
+            }
+            length = length.min(self.end - time);
+            step.attempt(length, &mut slopes);
+            track.work.rhs_calls += STAGES.len();
+            let error = step.error(self.unit(rtol, &most));
+            let factor = factor(error);
+            if error.is_nan() || error > 1.0 {
+                length *= factor.min(SAFETY);
+                track.work.rejected += 1;
+                continue;
+            }
+            step.fit(&mut slopes);
+            track.work.rhs_calls += 1 + FURTHER.len();
+            track.work.accepted += 1;
+            let end = if length < self.end - time { time + length } else { self.end };
+            let nodes = Nodes::of(&step, (time, end), curves);
+            let is_last = is_over(&nodes);
+            track.steps.push(nodes);
+            if is_last {
+                return Some(track);
+            }
+            time = end;
+            most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));
+            length *= factor;
+            step.go_on();
+        }
+        None
+    }
+
+    /// How fast the unknowns change.
+    fn slopes(&self) -> impl FnMut(&[f64; N]) -> [f64; N] {
+        let Instance { matrix, curves, .. } = self.instance;
+        move |z| apply(matrix, &filled(curves, z))
+    }
+
+    /// What errors of an unknown are counted in.
+    fn unit(&self, rtol: f64, most: &[f64; N]) -> impl Fn(usize, f64) -> f64 {
+        let unknowns = self.unknowns;
+        move |at, size| if at < unknowns { rtol * size.max(most[at]) } else { 0.0 }
+    }
+
+    fn looks(&self) -> Looks<N> {
+        let Instance { matrix, force, deformation, .. } = self.instance;
+        let speed = apply_left(deformation, matrix);
+        std::array::from_fn(|at| [force[at], deformation[at], speed[at]])
+    }
+
+    /// A first step that is short beside the time in which the unknowns change.
+    fn first_step(&self, from: &[f64; N], slopes: &[f64; N]) -> f64 {
+        let sum = |own: &[f64; N]| own[..self.unknowns].iter().map(|own| own.abs()).sum::<f64>();
+        (FIRST * sum(from) / sum(slopes)).min(self.end)
+    }
+}
+
+/// What the next step may be longer by than one of this error.
+fn factor(error: f64) -> f64 {
+    if error.is_finite() {
+        (SAFETY * error.powf(-0.125)).clamp(GROWTH.0, GROWTH.1)
+    } else {
+        GROWTH.0
+    }
+}
+
+/// The unknowns, with the forces of the laws in their slots.
+#[inline]
+fn filled<const N: usize>(curves: &[CurveRow<N>], z: &[f64; N]) -> [f64; N] {
+    let mut all = *z;
+    for curve in curves {
+        let force = curve.law.force(dot(&curve.deformation, z), dot(&curve.rate, z));
+        all[curve.slot] = force;
+    }
+    all
+}
+
+/// What a step shows.
+#[derive(Debug, Default)]
+struct Seen {
+    /// The polynomials of what is looked at.
+    coefficients: [[f64; DEGREE + 1]; 3],
+    /// The force at the places that they pass through.
+    force: [f64; DEGREE + 1],
+    /// Whether a law is followed beyond where it holds.
+    is_beyond: bool,
+}
+
+impl Seen {
+    fn of<const N: usize>(nodes: &Nodes<N>, curves: &[CurveRow<N>], looks: &Looks<N>) -> Self {
+        let (mut values, mut is_beyond) = ([[0.0; DEGREE + 1]; 3], false);
+        for (at, z) in nodes.values.iter().enumerate() {
+            let own = apply(looks, z);
+            (0..3).for_each(|look| values[look][at] = own[look]);
+            is_beyond |= curves.iter().any(|curve| is_outside(curve, z));
+        }
+        let interpolation = Interpolation::of_degree(DEGREE);
+        let coefficients = values.map(|values| {
+            let mut own = [0.0; DEGREE + 1];
+            interpolation.coefficients(&values, &mut own);
+            own
+        });
+        Self { coefficients, force: values[0], is_beyond }
+    }
+
+    /// When the force falls through zero in a step of this length, as far as its places tell; at the very start
+    /// of the first one it may be zero.
+    fn release(&self, length: f64) -> Option<f64> {
+        let at = 1 + self.force[1..].iter().position(|force| *force <= 0.0)?;
+        let nodes = Interpolation::of_degree(DEGREE);
+        let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
+        let (before, after) = (self.force[at - 1], self.force[at]);
+        let part = if before > after { before / (before - after) } else { 0.0 };
+        Some(length * (place(at - 1) + part * (place(at) - place(at - 1))))
+    }
+}
+
+/// Whether a law does not hold where it is.
+fn is_outside<const N: usize>(curve: &CurveRow<N>, z: &[f64; N]) -> bool {
+    let place = dot(&curve.deformation, z);
+    curve.law.range().is_some_and(|(from, to)| {
+        let room = if from.is_finite() { BEYOND * (to - from) } else { 0.0 };
+        place < from - room || place > to
+    })
+}
+
+/// The course up to the release, which lies in the last panel.
+fn released<const N: usize>(
+    [force, depth, speed]: [Vec<Panel>; 3],
+    track: Track<N>,
+) -> Option<Course<N>> {
+    let [force, depth, speed] = [force, depth, speed].map(|panels| Signal::new(panels, None, 0.0));
+    let release = force.first_crossing(0.0, (0.0, force.end()), Some(false))?.time;
+    let (strongest, deepest) = (force.maximum((0.0, release)), depth.maximum((0.0, release)));
+    (release > 0.0).then_some(Course { track, force, speed, release, strongest, deepest })
+}

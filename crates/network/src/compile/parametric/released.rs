@@ -1,0 +1,72 @@
+//! What a form does once what strikes it has been let go, and the rows of its parts.
+
+use super::{Instance, ParametricSystem, reading::order};
+
+/// A part of a form over the unknowns and slots of one network.
+#[derive(Debug, Clone)]
+pub struct PartRow<const N: usize> {
+    /// Its place among the primitives of the network.
+    pub primitive: usize,
+    /// Its deformation \[m\].
+    pub deformation: [f64; N],
+    /// The rate of that \[m/s\].
+    pub rate: [f64; N],
+}
+
+impl ParametricSystem {
+    /// The same form with the same unknowns once what strikes has been let go: a face without mass is left,
+    /// which nothing pushes. The speed of what strikes is not followed any more. `None` where the face has no
+    /// dashpot, so that it snaps back, or a law depends on its rate.
+    pub fn released(&self) -> Option<Self> {
+        let face = self.face;
+        let mut waits = vec![false; self.bodies];
+        let massless = self.eliminated.iter().map(|own| own.body);
+        massless.chain([face]).for_each(|body| waits[body] = true);
+        let weighed = self.weighed.iter().filter(|own| own.body != face).copied().collect();
+        let own = Self { eliminated: order(waits, &self.parts), weighed, ..self.clone() };
+        let is_linked = own.eliminated.iter().all(|own| !own.neighbours.is_empty());
+        (self.opens && is_linked && own.is_explicit()).then_some(own)
+    }
+
+    /// How many bodies with mass it has.
+    pub fn masses(&self) -> usize {
+        self.weighed.len()
+    }
+
+    /// The constant force \[N\] on what strikes, among the numbers of a network.
+    pub fn constant_force(&self, numbers: &[f64]) -> f64 {
+        let own = self.weighed.iter().find(|own| own.numbers[0] == self.mass);
+        own.map_or(0.0, |own| numbers[own.numbers[2]])
+    }
+
+    /// The rows of its parts in an instance that is [filled](Self::fill).
+    pub fn parts<const N: usize>(&self, instance: &Instance<N>) -> Vec<PartRow<N>> {
+        let row = |part: &super::Part| {
+            let [a, b] = part.ends.map(|body| self.speed_of(body, instance));
+            let rate = std::array::from_fn(|at| a[at] - b[at]);
+            let deformation = self.in_metres(&part.deformation);
+            PartRow { primitive: part.primitive, deformation, rate }
+        };
+        self.parts.iter().map(row).collect()
+    }
+
+    /// The speed \[m/s\] of what is struck at its face, over the unknowns and slots.
+    pub fn speed_of_face<const N: usize>(&self, instance: &Instance<N>) -> [f64; N] {
+        self.speed_of(self.face, instance)
+    }
+
+    /// The mass \[kg\] of each body that has any, and its speed \[m/s\] over the unknowns and slots.
+    pub fn masses_and_speeds<const N: usize>(
+        &self,
+        numbers: &[f64],
+        instance: &Instance<N>,
+    ) -> Vec<(f64, [f64; N])> {
+        let own = self.weighed.iter();
+        own.map(|own| (numbers[own.numbers[0]], self.speed_of(own.body, instance))).collect()
+    }
+
+    fn speed_of<const N: usize>(&self, body: usize, instance: &Instance<N>) -> [f64; N] {
+        let row = &instance.velocity[body];
+        std::array::from_fn(|at| row[at] * self.scales.get(at).copied().unwrap_or(0.0))
+    }
+}

@@ -1,0 +1,194 @@
+//! Single runs of plain impacts, which are followed in steps of constant size, beside runs by a method that is asked
+//! for, and generated scenes beside finer solutions.
+
+use dashpot::{
+    analysis::{Ledger, RunReport, Solve, SolveSettings},
+    network::{
+        Network, Node,
+        effects::{Gravity, GravityStart, Separation},
+        elements::{Dashpot, Foam, StiffeningSpring},
+        part,
+    },
+    rheology::Tree,
+};
+
+/// A mass that is let fall on foam, or strikes it without weight.
+fn on_foam(height: Option<f64>, damping: f64) -> Network {
+    let mut network = Network::new();
+    let head = Node::mass("head", 8.0);
+    let head = match height {
+        Some(height) => head.dropped(height),
+        None => head.moving(4.0),
+    };
+    let head = network.add_node(head);
+    let foam = Foam {
+        modulus: 1.2e6,
+        plateau: 1.2e5,
+        densification: 3e4,
+        exponent: 2.0,
+        thickness: 0.05,
+        area: 0.0144,
+    };
+    let pad = Tree::parallel([part(foam), part(Dashpot { damping })]);
+    network.connect("pad", head, network.ground(), pad).thickness = Some(0.05);
+    if height.is_some() {
+        network.add_effect(Gravity { acceleration: 9.80665, start: GravityStart::Equilibrium });
+    }
+    network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+    network
+}
+
+/// Other runs take three further solutions at least.
+fn is_plain(run: &RunReport) -> bool {
+    run.solver.solves_for_error == 1
+}
+
+fn run(network: &Network, settings: &SolveSettings) -> RunReport {
+    network.solve_with(settings).unwrap()
+}
+
+/// Compares two reports of one scene within the errors of both.
+fn assert_alike(own: &RunReport, other: &RunReport) {
+    assert_eq!(own.measures.len(), other.measures.len());
+    for (one, two) in own.measures.iter().zip(&other.measures) {
+        assert_eq!((&one.key, one.unit), (&two.key, two.unit));
+        let (a, b) = (one.value.unwrap(), two.value.unwrap());
+        let room = one.error.unwrap_or(0.0) + two.error.unwrap_or(0.0) + 1e-9 * one.size;
+        assert!((a - b).abs() <= room, "{}: {a} and {b} within {room}", one.key);
+        assert!((one.size - two.size).abs() <= 1e-3 * two.size, "{}", one.key);
+        assert_eq!(one.time.is_some(), two.time.is_some(), "{}", one.key);
+        assert_eq!(one.window.is_some(), two.window.is_some(), "{}", one.key);
+        assert_eq!(one.window_wish, two.window_wish, "{}", one.key);
+        assert_eq!(one.parameters, two.parameters, "{}", one.key);
+        for (one, two) in one.time.iter().zip(two.time) {
+            // A peak is flat: its time is known to the root of what its value is.
+            assert!((one - two).abs() <= 2e-2 * two, "{one} and {two}");
+        }
+    }
+    let what = |run: &RunReport| -> Vec<String> {
+        run.events.iter().map(|own| format!("{:?}", own.what)).collect()
+    };
+    assert_eq!(what(own), what(other));
+    for (one, two) in own.events.iter().zip(&other.events) {
+        let room = one.error.unwrap() + two.error.unwrap() + 1e-9;
+        assert!((one.time - two.time).abs() <= room, "{one:?} and {two:?}");
+    }
+    let contacts = |run: &RunReport| -> Vec<_> {
+        run.contacts.iter().map(|own| (own.impact.contact, own.is_glued, own.again)).collect()
+    };
+    assert_eq!(contacts(own), contacts(other));
+    assert_eq!(own.warnings, other.warnings);
+    assert_eq!(own.system, other.system);
+    assert_same_energies(&own.energy, &other.energy);
+    let after = |run: &RunReport| run.energy_after_impact.clone().unwrap();
+    assert_same_energies(&after(own), &after(other));
+}
+
+fn assert_same_energies(own: &Ledger, other: &Ledger) {
+    let room = 1e-4 * other.turned_over;
+    let names = |entries: &[(String, f64)]| -> Vec<String> {
+        entries.iter().map(|own| own.0.clone()).collect()
+    };
+    for (one, two) in [
+        (&own.stored, &other.stored),
+        (&own.dissipated, &other.dissipated),
+        (&own.work_in, &other.work_in),
+    ] {
+        assert_eq!(names(one), names(two));
+        for (one, two) in one.iter().zip(two) {
+            assert!((one.1 - two.1).abs() <= room, "{one:?} and {two:?}");
+        }
+    }
+    assert!((own.kinetic - other.kinetic).abs() <= room, "{own:?} and {other:?}");
+    assert!((own.start - other.start).abs() <= room, "{own:?} and {other:?}");
+    assert!((own.turned_over / other.turned_over - 1.0).abs() <= 1e-2, "{own:?} and {other:?}");
+    assert!(own.closure().abs() <= 1e-4, "{own:?}");
+}
+
+#[test]
+fn they_are_what_another_method_finds() {
+    let drops = [(Some(0.8), 40.0, 0.5), (Some(0.05), 40.0, 0.2)];
+    let blows = [(None, 40.0, 0.1), (None, 400.0, 0.1)];
+    for (height, damping, duration) in drops.into_iter().chain(blows) {
+        let network = on_foam(height, damping);
+        let settings = SolveSettings::lasting(duration);
+        let own = run(&network, &settings);
+        assert!(is_plain(&own), "{height:?}");
+        let other = run(&network, &settings.clone().by_name("esdirk34").unwrap());
+        assert_alike(&own, &other);
+        // Curves are those of the same run.
+        let force = |run: &RunReport| {
+            let output = run.assembly.output("pad.force").unwrap();
+            run.solution().signal(output).absolute_maximum((0.0, settings.duration)).value
+        };
+        assert!((force(&own) / force(&other) - 1.0).abs() < 1e-3);
+        assert!((force(&own) / own.value("pad.peak-force").unwrap() - 1.0).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn steps_are_counted_and_no_clock_decides() {
+    let settings = SolveSettings::lasting(0.6);
+    let own = run(&on_foam(Some(0.8), 40.0), &settings);
+    let work = own.solver.statistics;
+    assert_eq!((own.solver.rtol, own.solver.solves_for_error), (Some(1e-6), 1));
+    assert_eq!((work.accepted, work.rejected, work.rhs_calls), (19, 6, 374));
+    let again = run(&on_foam(Some(0.8), 40.0), &settings);
+    for (one, two) in own.measures.iter().zip(&again.measures) {
+        assert_eq!(one.value.map(f64::to_bits), two.value.map(f64::to_bits));
+        assert_eq!(one.error.map(f64::to_bits), two.error.map(f64::to_bits));
+    }
+}
+
+#[test]
+fn what_is_not_plain_is_solved_as_before() {
+    let is_plain = |network: &Network, settings: &SolveSettings| is_plain(&run(network, settings));
+    let settings = SolveSettings::lasting(0.6);
+    let drop = on_foam(Some(0.8), 40.0);
+    assert!(is_plain(&drop, &settings));
+    // It comes back within the run, or does not let go within it.
+    assert!(!is_plain(&drop, &SolveSettings::lasting(3.0)));
+    assert!(!is_plain(&drop, &SolveSettings::lasting(0.415)));
+    assert!(!is_plain(&drop, &settings.clone().by_name("bdf").unwrap()));
+    // Without a dashpot at its face the pad snaps back.
+    assert!(!is_plain(&on_foam(None, 0.0), &SolveSettings::lasting(0.1)));
+}
+
+#[test]
+fn bars_of_generated_scenes_hold_the_truth() {
+    let mut state = 7_u64;
+    let mut die = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let (mut measures, mut plain) = (0, 0);
+    for _ in 0..40 {
+        let (mass, speed) = (10_f64.powf(-1.0 + 2.0 * die()), 1.0 + 9.0 * die());
+        let depth = 10_f64.powf(-2.5 + die());
+        let stiffness = mass * (speed / depth).powi(2) * (0.3 + die());
+        let damping = 2.0 * (mass * stiffness).sqrt() * 10_f64.powf(-2.0 + 1.7 * die());
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", mass).moving(speed));
+        let spring = StiffeningSpring { stiffness, limit: 4.0 * depth };
+        let pad = Tree::parallel([part(spring), part(Dashpot { damping })]);
+        network.connect("pad", head, network.ground(), pad);
+        network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+        let settings = SolveSettings::lasting(12.0 * depth / speed);
+        let own = run(&network, &settings);
+        if !is_plain(&own) {
+            continue;
+        }
+        plain += 1;
+        let fine = SolveSettings { rtol: Some(1e-11), estimate: false, ..settings };
+        let truth = run(&network, &fine.by_name("dop853").unwrap());
+        for (one, two) in own.measures.iter().zip(&truth.measures) {
+            let (value, error) = (one.value.unwrap(), one.error.unwrap());
+            let off = (value - two.value.unwrap()).abs();
+            assert!(off <= error + 1e-9 * one.size, "{}: {value} ± {error}, off {off}", one.key);
+            assert!(error <= 1e-3 * one.size, "{}", one.key);
+            measures += 1;
+        }
+    }
+    assert!(plain >= 30 && measures >= 250, "{plain} scenes, {measures} measures");
+}
