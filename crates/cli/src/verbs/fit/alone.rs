@@ -6,6 +6,10 @@ use dashpot_fit::{
     network::{Curve, Kind},
 };
 use dashpot_network::{first_nonlinear, linear_model, parameters::Dimension};
+use dashpot_plot::{
+    FitQuantity,
+    figures::{CREEP, FitFigure, HISTORY, OSCILLATION, RELAXATION},
+};
 use dashpot_rheology::LinearModel;
 
 use super::{
@@ -97,6 +101,36 @@ impl Alone {
 
     pub(super) fn kind(&self) -> Kind {
         if matches!(self.looked, Looked::Answer(_)) { Kind::Answer } else { Kind::Modulus }
+    }
+
+    /// What it is drawn as, over what, and the SI unit of its values.
+    pub(super) fn drawn(&self) -> (&'static FitFigure, &'static str, FitQuantity, &'static str) {
+        let (figure, x) = match self.looked {
+            Looked::Relaxation => (&RELAXATION, "time [s]"),
+            Looked::Creep => (&CREEP, "time [s]"),
+            Looked::Storage | Looked::Loss => (&OSCILLATION, "frequency [Hz]"),
+            Looked::Answer(_) => (&HISTORY, "time [s]"),
+        };
+        let (quantity, unit) = match (self.looked, self.is_material) {
+            (Looked::Relaxation | Looked::Storage | Looked::Loss, true) => {
+                (FitQuantity::Modulus, "Pa")
+            }
+            (Looked::Relaxation | Looked::Storage | Looked::Loss, false) => {
+                (FitQuantity::Stiffness, "N/m")
+            }
+            (Looked::Creep, true) => (FitQuantity::Compliance, "1/Pa"),
+            (Looked::Creep, false) => (FitQuantity::PadCompliance, "m/N"),
+            (Looked::Answer(Drive::Deformation), true) => (FitQuantity::Stress, "Pa"),
+            (Looked::Answer(Drive::Deformation), false) => (FitQuantity::Force, "N"),
+            (Looked::Answer(Drive::Force), true) => (FitQuantity::Strain, "1"),
+            (Looked::Answer(Drive::Force), false) => (FitQuantity::Deformation, "m"),
+        };
+        (figure, x, quantity, unit)
+    }
+
+    /// Whether its rows are over a frequency \[rad/s\].
+    pub(super) fn is_oscillation(&self) -> bool {
+        matches!(self.looked, Looked::Storage | Looked::Loss)
     }
 
     /// The dimension of what is left of it: moduli are compared in parts of them.

@@ -2,13 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_fit::linear::{FittedCurve, Form, Kind};
+use dashpot_fit::{
+    linear::{FittedCurve, Form, Kind},
+    network::Kind as TestKind,
+};
 use dashpot_plot::{
     Chart, FitChannel, FitQuantity, FitRow, FitSeries, Of, ReportFigure,
     figures::{CREEP, HISTORY, OSCILLATION, RELAXATION},
 };
 
-use super::{Fitted, scene::FittedScene, words::misfit};
+use super::{Fitted, scene::FittedScene, target::Compared, words::misfit};
 use crate::{
     error::CliError,
     folder::Staged,
@@ -82,20 +85,25 @@ impl Drawn {
 pub(super) fn of_scene(fitted: &FittedScene) -> Vec<Drawn> {
     let each = fitted.curves.iter().zip(&fitted.fit.tests);
     list(each.map(|((asked, curve), test)| {
+        let (figure, x, quantity, unit) = match &curve.output {
+            Compared::Output(own) => (&HISTORY, "time [s]", quantity(own.of), curve.output.unit()),
+            Compared::Alone(own) => own.drawn(),
+        };
+        let is_oscillation = matches!(&curve.output, Compared::Alone(own) if own.is_oscillation());
+        let is_relative = curve.output.kind() == TestKind::Modulus;
         let rows = curve.rows.iter().zip(&test.residual).enumerate();
         let rows = rows.map(|(at, (row, left))| FitRow {
-            x: row.0,
+            x: if is_oscillation { row.0 / TAU } else { row.0 },
             measured: row.1,
-            model: row.1 + left,
-            half: test.band.get(at).copied().flatten(),
+            model: if is_relative { row.1 * left.exp() } else { row.1 + left },
+            half: test
+                .band
+                .get(at)
+                .copied()
+                .flatten()
+                .map(|half| half * if is_relative { row.1 } else { 1.0 }),
             floor: None,
         });
-        let quantity = match curve.output.of {
-            Of::Deformation => FitQuantity::Deformation,
-            Of::Acceleration => FitQuantity::Acceleration,
-            Of::Velocity => FitQuantity::Velocity,
-            Of::Force | Of::Time | Of::Energy => FitQuantity::Force,
-        };
         let series = FitSeries {
             title: format!("{}, {}", curve.output.key(), asked.file),
             note: String::new(),
@@ -103,8 +111,17 @@ pub(super) fn of_scene(fitted: &FittedScene) -> Vec<Drawn> {
             channels: vec![FitChannel { name: "", rows: rows.collect() }],
             branches: Vec::new(),
         };
-        Drawn { chart: HISTORY.chart(&series), series, x: "time [s]", unit: curve.output.unit() }
+        Drawn { chart: figure.chart(&series), series, x, unit }
     }))
+}
+
+fn quantity(of: Of) -> FitQuantity {
+    match of {
+        Of::Deformation => FitQuantity::Deformation,
+        Of::Acceleration => FitQuantity::Acceleration,
+        Of::Velocity => FitQuantity::Velocity,
+        Of::Force | Of::Time | Of::Energy => FitQuantity::Force,
+    }
 }
 
 /// The records that a model was fitted to.
