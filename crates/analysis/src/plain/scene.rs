@@ -19,6 +19,7 @@ use crate::{
         hic_search::optimum,
         selection::{Selected, select},
     },
+    report::compression::is_as_thick,
 };
 
 /// A run that may be of a plain impact.
@@ -68,7 +69,10 @@ impl<'s> Scene<'s> {
         let numbers = parametric.numbers(network)?;
         let struck = parametric.element();
         let is_whole = |(at, own): (usize, &ConnectionOutputs)| {
-            let is_one = own.segments.iter().all(|own| own.place == SegmentPlace::Whole);
+            let is_one = own.segments.iter().all(|part| {
+                part.place == SegmentPlace::Whole
+                    || own.thickness.is_some_and(|whole| is_as_thick(part.thickness, whole))
+            });
             if at == struck { is_one } else { own.segments.is_empty() && own.thickness.is_none() }
         };
         if !assembly.connections.iter().enumerate().all(is_whole) {

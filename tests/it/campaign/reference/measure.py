@@ -75,13 +75,18 @@ NEARLY, TOPS = 0.9, 12
 
 
 def hic(signal, cap):
-    """max of (t2 - t1) [integral of |a|/g0 / (t2 - t1)]^2.5 with t2 - t1 <= cap."""
+    """max of (t2 - t1) [|integral of a/g0| / (t2 - t1)]^2.5 with t2 - t1 <= cap."""
+    return max(one_way(signal, cap, sense) for sense in (1.0, -1.0))
+
+
+def one_way(signal, cap, sense):
+    """The same of integrals with this sign."""
     nodes, total = [], 0.0
     pieces = signal.pieces()
     for k, a, b in pieces:
         step = signal.steps[k]
         nodes.append((step.t + a * step.h, k, a, b, total))
-        own = np.abs(signal.at(k, a + (b - a) * PLAIN))
+        own = sense * signal.at(k, a + (b - a) * PLAIN)
         total += step.h * (b - a) * float(PLAIN_WEIGHTS @ own) / G0
     starts = np.array([own[0] for own in nodes])
     end = signal.steps[-1].t + signal.steps[-1].h
@@ -92,7 +97,7 @@ def hic(signal, cap):
             _, k, a, b, before = nodes[max(0, int(np.searchsorted(starts, own, side="right")) - 1)]
             step = signal.steps[k]
             to = min(max((own - step.t) / step.h, a), b)
-            part = np.abs(signal.at(k, a + (to - a) * PLAIN))
+            part = sense * signal.at(k, a + (to - a) * PLAIN)
             out[i] = before + step.h * (to - a) * float(PLAIN_WEIGHTS @ part) / G0
         return out
 
