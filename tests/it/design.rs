@@ -82,7 +82,6 @@ fn from_all_starts(count: usize) {
         let mut dice = Dice(7);
         let all: Vec<Design> = (0..count).map(|_| from_one_start(model, key, &mut dice)).collect();
         let best = all.iter().map(|own| own.aim).fold(f64::INFINITY, f64::min);
-        println!("{key}: {} at {:?}", best / unit, all[0].values);
         assert!((best / unit / least - 1.0).abs() < 1e-3, "{key}: {}", best / unit);
         // To 1e-6, beside that by which bounds are drawn in where an error bar reaches across.
         let is_there = |own: &&Design| own.is_feasible && own.aim < best * (1.0 + 2e-6);

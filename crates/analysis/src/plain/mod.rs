@@ -162,12 +162,11 @@ fn followed<const N: usize>(
         let work = Statistics::default();
         return is_finite.then_some((Found { values, errors, course, others: 0, work }, rtol));
     }
-    let tolerances: Vec<f64> = match settings.rtol {
-        Some(rtol) => vec![COARSER * rtol, rtol],
-        None => {
-            let strictest = settings.accuracy.strictest();
-            (0..TOLERANCES.len()).map(|level| tolerance(level, strictest)).collect()
-        }
+    let tolerances: Vec<f64> = if let Some(rtol) = settings.rtol {
+        vec![COARSER * rtol, rtol]
+    } else {
+        let strictest = settings.accuracy.strictest();
+        (0..TOLERANCES.len()).map(|level| tolerance(level, strictest)).collect()
     };
     let suffice = |values: &[f64], errors: &[f64]| scene.suffice(values, errors);
     let found = with_bars(stepped, &tolerances, &read, &suffice)?;

@@ -3,6 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use dashpot_dae::{MethodKind as _, Run, Statistics, Switch, methods};
+use dashpot_network::PhasedNetwork;
 
 use super::{later, scene::Scene, shown::Shown};
 use crate::{
@@ -150,8 +151,8 @@ impl Told {
 
     /// The phase in which the contact begins, and what switches.
     fn phases(&self, scene: &Scene<'_>) -> (Vec<(usize, f64)>, Vec<Switch>) {
-        let parts = scene.assembly.switching.as_deref().map_or(Vec::new(), |own| own.parts());
-        let first = if scene.fall > 0.0 { 0 } else { 1 };
+        let parts = scene.assembly.switching.as_deref().map_or(Vec::new(), PhasedNetwork::parts);
+        let first = usize::from(scene.fall <= 0.0);
         let switch = |part: usize, time: f64, phase: usize| Switch {
             time,
             part,

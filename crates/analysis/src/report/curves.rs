@@ -20,7 +20,7 @@ type Maker = Box<dyn Fn() -> Trajectory + Send + Sync>;
 
 enum Kind {
     Made(Box<Trajectory>),
-    Later(Maker, OnceLock<Trajectory>),
+    Later(Maker, OnceLock<Box<Trajectory>>),
 }
 
 impl Curves {
@@ -33,7 +33,7 @@ impl Curves {
     pub fn into_trajectory(self) -> Trajectory {
         match self.0 {
             Kind::Made(own) => *own,
-            Kind::Later(maker, own) => own.into_inner().unwrap_or_else(maker),
+            Kind::Later(maker, own) => own.into_inner().map_or_else(maker, |own| *own),
         }
     }
 }
@@ -50,7 +50,7 @@ impl Deref for Curves {
     fn deref(&self) -> &Trajectory {
         match &self.0 {
             Kind::Made(own) => own,
-            Kind::Later(maker, own) => own.get_or_init(maker),
+            Kind::Later(maker, own) => own.get_or_init(|| Box::new(maker())),
         }
     }
 }
