@@ -61,6 +61,7 @@ mod random_networks;
 mod rating;
 mod scatter;
 mod scenes;
+mod shards;
 mod signal;
 mod signs;
 mod similarity;

@@ -12,6 +12,7 @@ use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
+use serde::{Deserialize, Serialize};
 
 use crate::error::{CliError, is_unit, unquoted_help};
 
@@ -20,7 +21,7 @@ pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a fil
      has one model; FILE:NODE,NODE for the response of a network without moving masses";
 
 /// Which scene.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args, Serialize, Deserialize)]
 pub(crate) struct SceneArguments {
     /// File of the scene, `-` for standard input, or a built-in scene (reference,
     /// reference-stiff, reference-gravity) [default: reference].
@@ -31,7 +32,7 @@ pub(crate) struct SceneArguments {
 }
 
 /// Which named values.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args, Serialize, Deserialize)]
 pub(crate) struct ValueArguments {
     /// Sets a value of the scene's table [values], `--set "K=25 MN/m"`, or any number or word by its path,
     /// `--set "head.mass=6 kg"`, `--set liner.material=epp`; repeatable.
@@ -58,7 +59,7 @@ pub(crate) fn variant(text: &str) -> Result<Variant, String> {
 }
 
 /// Which limits besides those of the scene.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args, Serialize, Deserialize)]
 pub(crate) struct LimitArguments {
     /// A limit besides those of the scene, such as "head.hic15<=700" or, by a standard,
     /// "head.peak-acceleration=en-1078" (`dashpot list limits`); repeatable.
@@ -79,7 +80,8 @@ impl LimitArguments {
 }
 
 /// Limits that one argument states.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub(crate) struct Limits {
     /// The argument.
     pub(crate) text: String,
@@ -88,6 +90,20 @@ pub(crate) struct Limits {
 
 fn limits(text: &str) -> Result<Limits, String> {
     Ok(Limits { text: text.trim().to_owned(), list: parse_limits(text)? })
+}
+
+impl TryFrom<String> for Limits {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        limits(&text)
+    }
+}
+
+impl From<Limits> for String {
+    fn from(own: Limits) -> Self {
+        own.text
+    }
 }
 
 /// More points are not solved in one sweep.
@@ -100,9 +116,10 @@ pub(crate) fn samples(text: &str) -> Result<usize, String> {
 }
 
 /// When something is done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum When {
     /// On terminals.
+    #[default]
     Auto,
     /// Always.
     Always,

@@ -22,7 +22,10 @@ use dashpot_signal::{CfcFault, ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
-use crate::{numbers::constant, verbs::run::stated};
+use crate::{
+    numbers::{constant, counted},
+    verbs::run::stated,
+};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,6 +46,54 @@ impl From<Status> for ExitCode {
     fn from(status: Status) -> Self {
         Self::from(status as u8)
     }
+}
+
+/// What is wrong with a folder of a shard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub(crate) enum ShardFault {
+    /// There is no result of a shard.
+    #[error("there is no shard of a sweep in it, or not yet")]
+    None,
+    /// Its values are gone, or not those that were written.
+    #[error("the values of its shard are not as they were written")]
+    Broken,
+    /// It is of another sweep than the others.
+    #[error("its shard is of another sweep than the first one")]
+    OfAnother,
+    /// The scene, a file of it, or the program is another one by now.
+    #[error(
+        "the scene, a file of it or the version of the program has changed since its shard was solved"
+    )]
+    Changed,
+    /// There is a shard of another sweep where this one is to be written.
+    #[error("there is a shard of another sweep in it")]
+    Taken,
+    /// It is there twice.
+    #[error("its shard is there twice")]
+    Twice,
+}
+
+impl ShardFault {
+    /// What to do.
+    fn help(self) -> &'static str {
+        match self {
+            Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
+            Self::Broken => "remove the folder, and solve the shard again",
+            Self::OfAnother | Self::Twice => "leave the folder out",
+            Self::Changed => "solve all shards again, or bring back what was changed",
+            Self::Taken => "choose another folder for `--out`, or remove this one",
+        }
+    }
+}
+
+/// `3, 7 and 9`; of many the first.
+fn list_of(numbers: &[usize]) -> String {
+    const MOST: usize = 12;
+    let mut words: Vec<String> = numbers.iter().take(MOST).map(usize::to_string).collect();
+    if numbers.len() > MOST {
+        words.push("…".to_owned());
+    }
+    words.join(", ")
 }
 
 /// Why a command did not do what it was asked for.
@@ -139,6 +190,12 @@ pub(crate) enum CliError {
     /// A sweep that cannot be done.
     #[error(transparent)]
     Sweep(SweepError),
+    /// A folder that holds no whole shard of the sweep.
+    #[error("`{}`: {fault}", .path.display())]
+    Shard { path: PathBuf, fault: ShardFault },
+    /// Shards that are not there.
+    #[error("{} of {of} {} missing: {}", counted(.numbers.len(), "shard"), if .numbers.len() == 1 { "is" } else { "are" }, list_of(.numbers))]
+    ShardsMissing { numbers: Vec<usize>, of: usize },
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
     UnknownSetting { name: String, known: Vec<&'static str> },
@@ -280,6 +337,11 @@ impl CliError {
             }
             Self::NothingToKeep { .. } | Self::NoLimits => Some(
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
+                    .to_owned(),
+            ),
+            Self::Shard { fault, .. } => Some(fault.help().to_owned()),
+            Self::ShardsMissing { .. } => Some(
+                "solve them with the same command; shards that are there already are left as they are"
                     .to_owned(),
             ),
             Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),

@@ -7,7 +7,7 @@ const CHAPTERS: [(&str, usize, usize); 20] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
-    ("sweeps", 6, 3),
+    ("sweeps", 7, 3),
     ("gradients", 1, 0),
     ("fit", 6, 0),
     ("design", 4, 0),

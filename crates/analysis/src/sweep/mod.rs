@@ -7,7 +7,8 @@
 //! reported that way is compared with full runs at points spread over the grid. All other scenes, and points
 //! whose impact is not of the plain kind or not certain enough, are solved in full.
 //!
-//! Points are shared among threads; the result is the same to the bit whatever their number.
+//! Points are shared among threads, and whole groups of them as [shards](sweep_shard) among machines; the result is
+//! the same to the bit whatever their number.
 
 mod axes;
 mod bracket;
@@ -22,6 +23,7 @@ mod propagate;
 mod report;
 mod scene_point;
 mod serialized;
+mod shards;
 mod shown;
 mod stamper;
 mod sums;
@@ -30,10 +32,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use std::{
-    sync::atomic::{AtomicUsize, Ordering},
-    time::{Duration, Instant},
-};
+use std::time::Instant;
 
 use dashpot_dae::Silent;
 use dashpot_network::{Detail, Network};
@@ -46,15 +45,11 @@ pub use self::{
     forces::{ContactForce, ContactForces, PoseAt},
     parallel::Watch,
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
+    shards::{Raised, Shard, merge, points_of_shard, sweep_shard},
 };
-use self::{
-    full::{Flaws, Full, check},
-    instantiated::Plan,
-    parallel::{GROUP, workers},
-    report::Notice,
-};
+use self::{full::Flaws, report::Notice};
 use crate::{
-    Limit, SolveSettings, Warning,
+    SolveSettings, Warning,
     partial::{decide, spread},
 };
 
@@ -82,6 +77,14 @@ struct Row<'r> {
     notice: Option<Notice>,
 }
 
+impl Row<'_> {
+    /// All that is to be said of the point; `element` is the one that notices are about.
+    fn told(&self, element: &str) -> Vec<Warning> {
+        let noticed = self.notice.map(|own| own.warnings(element)).unwrap_or_default();
+        self.warnings.iter().cloned().chain(noticed).collect()
+    }
+}
+
 /// Solves the scenes of a grid by so many threads.
 ///
 /// Where their accuracy has a bound for what may be left out, that is decided at the corners of the
@@ -100,104 +103,12 @@ pub fn sweep(
     watch: &mut Watch<'_>,
 ) -> Result<SweepReport, SweepError> {
     let started = Instant::now();
-    let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
-    let partial = decided(grid, pose, &first)?;
-    let details: &[Detail] = partial.as_ref().map_or(&[], |partial| &partial.1);
-    let reduced = |places: &[usize]| {
-        let mut scene_point = pose(places)?;
-        if !details.is_empty() {
-            scene_point.network = scene_point.network.without(details);
-        }
-        scene_point.settings.accuracy.neglect_below = None;
-        scene_point.settings.estimate &= options.estimates != Estimates::Off;
-        Ok(scene_point)
-    };
-    let full = Full { grid, pose: &reduced, columns };
-    let mut report = solved(&full, options, watch)?;
-    if let Some((own, _)) = partial {
-        // As many threads would share the work in full.
-        let wall_in_full = own.wall_in_full / workers(options.threads, grid.len());
-        report.charge(PartialOfSweep { wall_in_full, ..own });
-    }
+    let mut report = shards::ready((grid, pose, columns), options, |ready| {
+        let whole = ready.solve(0..grid.len(), watch)?;
+        Ok(ready.report(vec![whole]))
+    })?;
     report.wall = started.elapsed();
     Ok(report)
-}
-
-/// Solves all points: by instantiating where that agrees with full runs, else in full.
-fn solved(
-    full: &Full<'_>,
-    options: SweepOptions,
-    watch: &mut Watch<'_>,
-) -> Result<SweepReport, SweepError> {
-    let SweepOptions { threads, estimates } = options;
-    let &Full { grid, pose, columns } = full;
-    let first = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
-    let plan = Plan::of(grid, pose, &first, columns, options);
-    let found = plan.as_ref().and_then(|plan| check(plan, full, threads));
-    let plan = plan.filter(|_| found.is_some());
-    let count = grid.len();
-    let mut values = vec![f64::NAN; count * columns.len()];
-    let mut errors = vec![f64::NAN; count * columns.len()];
-    let mut rows = rows(columns.len(), &mut values, &mut errors);
-    let estimated = AtomicUsize::new(0);
-    let tool = || plan.as_ref().and_then(Plan::stamper);
-    let is_whole = share(
-        &mut rows,
-        (GROUP, threads),
-        &tool,
-        &|stamper, rows| {
-            if let Some(stamper) = stamper {
-                estimated.fetch_add(stamper.group(rows), Ordering::Relaxed);
-            }
-            let others: Vec<&mut Row<'_>> =
-                rows.iter_mut().filter(|row| row.notice.is_none()).collect();
-            if !others.is_empty() {
-                estimated.fetch_add(full.group(others, estimates), Ordering::Relaxed);
-            }
-        },
-        watch,
-    );
-    if !is_whole {
-        return Err(SweepError::BrokenOff);
-    }
-    let instantiated = rows.iter().filter(|row| row.notice.is_some()).count();
-    let (checked, largest_difference) = found.filter(|_| instantiated > 0).unwrap_or_default();
-    let gaps = rows.iter_mut().flat_map(|row| std::mem::take(&mut row.flaws.gaps)).collect();
-    let cut = rows.iter().flat_map(|row| row.flaws.cut.iter().map(|column| (row.point, *column)));
-    let cut = cut.collect();
-    let at = |limit: &Limit| {
-        let is_it = |own: &Column| !own.is_share && own.key == limit.key;
-        Some((columns.iter().position(is_it)?, limit.clone()))
-    };
-    let limits = first.settings.limits.iter().filter_map(at).collect();
-    let warnings = report::collect(&rows, plan.as_ref().map_or("", Plan::element));
-    drop(rows);
-    Ok(SweepReport {
-        columns: columns.to_vec(),
-        values,
-        errors,
-        gaps,
-        cut,
-        limits,
-        warnings,
-        instantiated,
-        estimated: estimated.into_inner(),
-        checked,
-        largest_difference,
-        partial: None,
-        wall: Duration::ZERO,
-    })
-}
-
-/// The points, each with its place among the values of so many columns.
-fn rows<'r>(columns: usize, values: &'r mut [f64], errors: &'r mut [f64]) -> Vec<Row<'r>> {
-    let width = columns.max(1);
-    let places = values.chunks_mut(width).zip(errors.chunks_mut(width)).enumerate();
-    let row = |(point, (values, errors))| {
-        let (flaws, warnings, notice) = (Flaws::default(), Vec::new(), None);
-        Row { point, values, errors, flaws, warnings, notice }
-    };
-    places.map(row).collect()
 }
 
 /// The corners of a grid are looked at up to so many parameters.

@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::Row;
+use super::{Row, shards::Raised};
 use crate::{
     Compression, Judgement, Limit, Reason, RunError, Through, Warning,
     partial::{Cost, Neglected, PutBack},
@@ -23,7 +24,7 @@ pub struct Column {
 }
 
 /// A value that does not exist, or a point that could not be solved.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
     /// The point.
     pub point: usize,
@@ -159,6 +160,18 @@ pub enum SweepError {
     /// The scene reports nothing by itself, and nothing is asked for.
     #[error("the scene reports no measure by itself: name one")]
     NoneReported,
+    /// Shards that are not the whole of a sweep.
+    #[error("point {} of the grid is in no shard, or in two", point + 1)]
+    NotWhole {
+        /// The first such point, from 0.
+        point: usize,
+    },
+    /// A point is not warned of what its shard says.
+    #[error("point {} is not warned of what its shard says: it was solved by another program", point + 1)]
+    OtherWarnings {
+        /// The point, from 0.
+        point: usize,
+    },
     /// The watcher broke it off.
     #[error("the sweep was broken off")]
     BrokenOff,
@@ -196,21 +209,22 @@ impl Notice {
     }
 }
 
-/// The warnings of all rows, in the order of the first points that they are about. `element` is the
-/// one that notices are about.
-pub(super) fn collect(rows: &[Row<'_>], element: &str) -> Vec<SweepWarning> {
+/// The warnings of all rows, in the order of the first points that they are about, and where they are raised.
+/// `element` is the one that notices are about.
+pub(super) fn collect(rows: &[Row<'_>], element: &str) -> (Vec<Warning>, Vec<Raised>) {
     let mut all = Kinds::default();
     // Notices are of the same kinds at all points, so each is looked for once.
     let mut known: [Option<usize>; 2] = [None; 2];
     for row in rows {
-        for warning in &row.warnings {
-            let at = all.of(warning);
+        for (place, warning) in row.warnings.iter().enumerate() {
+            let at = all.of(warning, place);
             all.add(at, row.point);
         }
         let Some(notice) = &row.notice else { continue };
         let alone = [Notice { pressed: None, ..*notice }, Notice { pulls: None, ..*notice }];
-        for (known, own) in known.iter_mut().zip(alone).filter(|own| own.1 != Notice::default()) {
-            let found = || own.warnings(element).first().map(|warning| all.of(warning));
+        let alone = known.iter_mut().zip(alone).filter(|own| own.1 != Notice::default());
+        for (place, (known, own)) in alone.enumerate() {
+            let found = || own.warnings(element).first().map(|warning| all.of(warning, place));
             if let Some(kind) = known.or_else(found) {
                 *known = Some(kind);
                 all.add(kind, row.point);
@@ -218,26 +232,34 @@ pub(super) fn collect(rows: &[Row<'_>], element: &str) -> Vec<SweepWarning> {
         }
     }
     all.0
+        .into_iter()
+        .map(|(own, place)| (own.warning, Raised { points: own.points, place }))
+        .unzip()
 }
 
-/// Warnings by what they say besides numbers.
+/// Warnings by what they say besides numbers, each with its place among those of its first point.
 #[derive(Default)]
-struct Kinds(Vec<SweepWarning>);
+pub(super) struct Kinds(Vec<(SweepWarning, usize)>);
 
 impl Kinds {
     /// Position of the kind of a warning.
-    fn of(&mut self, warning: &Warning) -> usize {
-        self.0.iter().position(|own| own.warning.is_like(warning)).unwrap_or_else(|| {
-            self.0.push(SweepWarning { warning: warning.clone(), points: Vec::new() });
+    pub(super) fn of(&mut self, warning: &Warning, place: usize) -> usize {
+        self.0.iter().position(|own| own.0.warning.is_like(warning)).unwrap_or_else(|| {
+            let own = SweepWarning { warning: warning.clone(), points: Vec::new() };
+            self.0.push((own, place));
             self.0.len() - 1
         })
     }
 
-    fn add(&mut self, kind: usize, point: usize) {
-        let points = &mut self.0[kind].points;
+    pub(super) fn add(&mut self, kind: usize, point: usize) {
+        let points = &mut self.0[kind].0.points;
         if points.last() != Some(&point) {
             points.push(point);
         }
+    }
+
+    pub(super) fn told(self) -> Vec<SweepWarning> {
+        self.0.into_iter().map(|own| own.0).collect()
     }
 }
 

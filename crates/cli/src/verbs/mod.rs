@@ -74,6 +74,8 @@ pub(crate) enum Command {
     Signal(signal::SignalArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
+    /// Puts the shards of a sweep together: the bytes of one sweep, as if it had not been divided.
+    Merge(sweep::MergeArguments),
     /// Searches the best numbers of a scene within its limits, and tells what no pad can beat.
     Design(design::DesignArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
@@ -116,6 +118,7 @@ impl Command {
             Self::Cost(arguments) => cost::cost(arguments, terminal),
             Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
+            Self::Merge(arguments) => sweep::merged(arguments, terminal),
             Self::Design(arguments) => design::design(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),

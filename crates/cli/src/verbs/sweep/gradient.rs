@@ -1,6 +1,6 @@
 //! `sweep --gradient`: what measures change with.
 
-use std::{io, num::NonZero, thread::available_parallelism};
+use std::io;
 
 use dashpot_analysis::{
     gradients::{
@@ -55,8 +55,7 @@ pub(super) fn gradient(
     folder: Option<Folder>,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let all = || available_parallelism().map_or(1, NonZero::get);
-    let threads = arguments.threads.map_or_else(all, NonZero::get);
+    let threads = arguments.threads();
     let found = |name: &String| varied.tunables.find(name.trim()).map_err(CliError::Gradient);
     let places = arguments.gradient.iter().map(found).collect::<Result<Vec<usize>, _>>()?;
     let is_set = |(name, _): &&(String, String)| {
@@ -77,8 +76,8 @@ pub(super) fn gradient(
             return Err(SweepError::BrokenOff.into());
         }
     }
-    let found = Gradients { scene, varied, grid, reports, table: arguments.table };
-    emit(&found, arguments.json, folder, terminal)?;
+    let found = Gradients { scene, varied, grid, reports, table: arguments.output.table };
+    emit(&found, arguments.output.json, folder, terminal)?;
     Ok(Status::Done)
 }
 

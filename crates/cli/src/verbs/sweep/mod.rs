@@ -7,6 +7,7 @@ mod gradient;
 mod kept;
 mod page;
 mod points;
+mod shards;
 mod titles;
 mod unmoved;
 mod varied;
@@ -22,14 +23,16 @@ use clap::{Args, ValueEnum};
 use dashpot_analysis::{
     Judgement, Limit, RunError,
     sweep::{
-        Column, Estimates, Grid, Pose, ScenePoint, SweepOptions, SweepReport, columns,
-        sweep as solve,
+        Column, Estimates, Grid, Pose, ScenePoint, Shard, SweepOptions, SweepReport, columns,
+        merge, points_of_shard, sweep as solve, sweep_shard,
     },
 };
 use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+pub(crate) use self::shards::{MergeArguments, merged};
 use self::{
+    shards::{OfShard, Place, Stored},
     varied::{Form, Varied},
     words::{notes, summary},
 };
@@ -38,7 +41,7 @@ use crate::{
         LimitArguments, MOST_POINTS as MOST, SceneArguments, When, budget, method_names, samples,
         share,
     },
-    error::{CliError, Status},
+    error::{CliError, ShardFault, Status},
     folder::{Folder, Staged},
     input::{Input, title},
     numbers::counted,
@@ -51,7 +54,7 @@ use crate::{
 };
 
 /// `sweep`.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args, Serialize, Deserialize)]
 #[command(after_help = "Examples:\n  \
     dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
     dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
@@ -60,6 +63,7 @@ use crate::{
     --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n  \
     dashpot sweep helmet.toml --vary liner.material=eps,epp,vn --vary \"drop=0.5..2 m\"\n  \
     dashpot sweep pad.toml --gradient K,head.mass\n  \
+    dashpot sweep pad.toml --points designs.csv --shard 3/10 --out part-3\n  \
     dashpot sweep pad.toml --vary \"K=5..30 MN/m\" --vary \"C=2..9 kN s/m\" --sample 200\n\n\
     A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
     padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
@@ -73,6 +77,7 @@ pub(crate) struct SweepArguments {
     limits: LimitArguments,
     /// Exits with 4 unless every point keeps every limit, however the errors lie.
     #[arg(long, conflicts_with = "gradient")]
+    #[serde(skip)]
     enforce: bool,
     /// A number of the scene and the values that it takes; repeatable, for all combinations.
     #[arg(long, value_name = "NAME=VALUES", required_unless_present_any = ["points", "gradient"])]
@@ -113,7 +118,22 @@ pub(crate) struct SweepArguments {
     budget: Option<u64>,
     /// How many threads share the points; the results are the same [default: one per core].
     #[arg(long, value_name = "NUMBER")]
+    #[serde(skip)]
     threads: Option<NonZero<usize>>,
+    /// One part of so many, such as 3/10, for a queue of jobs or several machines: only its points are solved, and
+    /// `dashpot merge` puts the folders of all together, to the bytes of one sweep. A shard that is there, whole, is
+    /// left as it is.
+    #[arg(long, value_name = "NUMBER/OF", value_parser = shards::place, requires = "out", conflicts_with_all = ["gradient", "enforce", "table"])]
+    #[serde(skip)]
+    shard: Option<Place>,
+    #[command(flatten)]
+    #[serde(skip)]
+    output: OutputArguments,
+}
+
+/// Where the result of a sweep goes, and how.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct OutputArguments {
     /// Folder for CSV, JSON, SVG and HTML: lines over one parameter, maps over two, and report.html with
     /// everything on one page.
     #[arg(long, value_name = "DIR")]
@@ -127,7 +147,7 @@ pub(crate) struct SweepArguments {
 }
 
 /// The points of a sweep at which errors are estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 enum EstimatedPoints {
     /// Every point.
     All,
@@ -163,6 +183,15 @@ struct Swept {
 
 /// Solves a scene for many values of its parameters.
 pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<Status, CliError> {
+    solved_or_merged(arguments, None, terminal)
+}
+
+/// The result of a sweep, of which all points are solved, or those of a shard; or all stand in `stored` shards.
+fn solved_or_merged(
+    arguments: &SweepArguments,
+    stored: Option<Vec<Stored>>,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
     let input = Input::of(arguments.scene.scene.as_deref())?;
     let set = &arguments.scene.values.set;
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
@@ -195,12 +224,23 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
         return Err(CliError::NoLimits);
     }
     let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
-    let names = if arguments.gradient.is_empty() {
-        files::names(&varied, &columns)
-    } else {
-        vec![gradient::TABLE.to_owned()]
-    };
-    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
+    let hash = shards::fingerprint(arguments, &scene, &columns);
+    if let Some(own) = stored.iter().flatten().find(|own| own.sweep != hash) {
+        return Err(own.fault(ShardFault::Changed));
+    }
+    if let Some(place) = arguments.shard
+        && Stored::found(&arguments.output, place, &hash)?
+    {
+        return Ok(Status::Done);
+    }
+    let folder = Folder::wanted(
+        arguments.output.out.as_deref(),
+        match (arguments.gradient.is_empty(), arguments.shard) {
+            (false, _) => vec![gradient::TABLE.to_owned()],
+            (true, Some(_)) => vec![shards::VALUES.to_owned()],
+            (true, None) => files::names(&varied, &columns),
+        },
+    )?;
     let of_text = |text: &str| {
         let posed = pose(text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(Diagnostic::message);
@@ -227,13 +267,53 @@ pub(crate) fn sweep(arguments: &SweepArguments, terminal: Terminal) -> Result<St
     }
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
-    let report = solved((arguments, estimates), &grid, &at, &columns, terminal)?;
-    let asked = arguments.in_words(estimates);
-    let swept = Swept { scene, varied, grid, estimates, asked, report, table: arguments.table };
-    let has_folder = folder.is_some();
-    emit(&swept, arguments.json, folder, terminal)?;
-    figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
-    Ok(status(&swept.report, arguments.enforce))
+    let found = found((arguments, estimates, stored), (&grid, &at, &columns), terminal)?;
+    let OutputArguments { json, table, .. } = arguments.output;
+    match found {
+        Found::Shard(place, shard) => {
+            let study = OfShard::of((arguments, place), (&scene, hash), grid.len(), shard);
+            emit(&study, json, folder, terminal)?;
+            Ok(study.status())
+        }
+        Found::All(report) => {
+            let asked = arguments.in_words(estimates);
+            let swept = Swept { scene, varied, grid, estimates, asked, report: *report, table };
+            let has_folder = folder.is_some();
+            emit(&swept, json, folder, terminal)?;
+            figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
+            Ok(status(&swept.report, arguments.enforce))
+        }
+    }
+}
+
+/// What a sweep or a shard of it yields.
+enum Found {
+    Shard(Place, Shard),
+    All(Box<SweepReport>),
+}
+
+/// Solves the points of the grid, or of a shard, or puts together what is `stored`.
+fn found(
+    (arguments, estimates, stored): (&SweepArguments, Estimates, Option<Vec<Stored>>),
+    (grid, pose, columns): (&Grid, &Pose<'_>, &[Column]),
+    terminal: Terminal,
+) -> Result<Found, CliError> {
+    let options = SweepOptions { threads: arguments.threads(), estimates };
+    let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
+    let mut show =
+        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    if let Some(place) = arguments.shard {
+        let points = points_of_shard(grid.len(), place.number, place.of);
+        let shard = sweep_shard(grid, pose, columns, options, points, &mut show)?;
+        return Ok(Found::Shard(place, shard));
+    }
+    Ok(Found::All(Box::new(match stored {
+        Some(all) => {
+            let shards = all.into_iter().map(|own| own.shard).collect();
+            merge(grid, pose, columns, options, shards)?
+        }
+        None => solve(grid, pose, columns, options, &mut show)?,
+    })))
 }
 
 /// What became of all points, where each has to keep every limit if that is `enforced`.
@@ -270,19 +350,10 @@ fn of_ends(
     Ok(Diagnostics { list: shown.split_off(before), omitted: 0 })
 }
 
-fn solved(
-    (arguments, estimates): (&SweepArguments, Estimates),
-    grid: &Grid,
-    pose: &Pose<'_>,
-    columns: &[Column],
-    terminal: Terminal,
-) -> Result<SweepReport, CliError> {
-    let all = || available_parallelism().map_or(1, NonZero::get);
-    let threads = arguments.threads.map_or_else(all, NonZero::get);
-    let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
-    let mut show =
-        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
-    Ok(solve(grid, pose, columns, SweepOptions { threads, estimates }, &mut show)?)
+impl SweepArguments {
+    fn threads(&self) -> usize {
+        self.threads.or(available_parallelism().ok()).map_or(1, NonZero::get)
+    }
 }
 
 /// What a parameter takes.
