@@ -23,8 +23,11 @@ use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
 use crate::{
-    numbers::{constant, counted},
-    verbs::run::stated,
+    numbers::constant,
+    verbs::{
+        run::stated,
+        sweep::{MISSING_HELP, ShardFault, missing},
+    },
 };
 
 /// How a command ended.
@@ -46,54 +49,6 @@ impl From<Status> for ExitCode {
     fn from(status: Status) -> Self {
         Self::from(status as u8)
     }
-}
-
-/// What is wrong with a folder of a shard.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub(crate) enum ShardFault {
-    /// There is no result of a shard.
-    #[error("there is no shard of a sweep in it, or not yet")]
-    None,
-    /// Its values are gone, or not those that were written.
-    #[error("the values of its shard are not as they were written")]
-    Broken,
-    /// It is of another sweep than the others.
-    #[error("its shard is of another sweep than the first one")]
-    OfAnother,
-    /// The scene, a file of it, or the program is another one by now.
-    #[error(
-        "the scene, a file of it or the version of the program has changed since its shard was solved"
-    )]
-    Changed,
-    /// There is a shard of another sweep where this one is to be written.
-    #[error("there is a shard of another sweep in it")]
-    Taken,
-    /// It is there twice.
-    #[error("its shard is there twice")]
-    Twice,
-}
-
-impl ShardFault {
-    /// What to do.
-    fn help(self) -> &'static str {
-        match self {
-            Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
-            Self::Broken => "remove the folder, and solve the shard again",
-            Self::OfAnother | Self::Twice => "leave the folder out",
-            Self::Changed => "solve all shards again, or bring back what was changed",
-            Self::Taken => "choose another folder for `--out`, or remove this one",
-        }
-    }
-}
-
-/// `3, 7 and 9`; of many the first.
-fn list_of(numbers: &[usize]) -> String {
-    const MOST: usize = 12;
-    let mut words: Vec<String> = numbers.iter().take(MOST).map(usize::to_string).collect();
-    if numbers.len() > MOST {
-        words.push("…".to_owned());
-    }
-    words.join(", ")
 }
 
 /// Why a command did not do what it was asked for.
@@ -194,7 +149,7 @@ pub(crate) enum CliError {
     #[error("`{}`: {fault}", .path.display())]
     Shard { path: PathBuf, fault: ShardFault },
     /// Shards that are not there.
-    #[error("{} of {of} {} missing: {}", counted(.numbers.len(), "shard"), if .numbers.len() == 1 { "is" } else { "are" }, list_of(.numbers))]
+    #[error("{}", missing(.numbers, *.of))]
     ShardsMissing { numbers: Vec<usize>, of: usize },
     /// A parameter that no test has.
     #[error("no test has a `{name}`; there are {}", .known.join(", "))]
@@ -340,10 +295,7 @@ impl CliError {
                     .to_owned(),
             ),
             Self::Shard { fault, .. } => Some(fault.help().to_owned()),
-            Self::ShardsMissing { .. } => Some(
-                "solve them with the same command; shards that are there already are left as they are"
-                    .to_owned(),
-            ),
+            Self::ShardsMissing { .. } => Some(MISSING_HELP.to_owned()),
             Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),

@@ -46,7 +46,8 @@ pub struct Shard {
 /// Where runs are warned of one kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Raised {
-    /// The points, rising.
+    /// The points, rising; serialised as ranges.
+    #[serde(with = "ranges")]
     pub points: Vec<usize>,
     /// The place of the warning among those of the first point.
     pub place: usize,
@@ -307,4 +308,20 @@ fn rows<'r>(
         Row { point, values, errors, flaws, warnings, notice }
     };
     points.clone().zip(places).map(row).collect()
+}
+
+/// Rising numbers as ranges of neighbours.
+mod ranges {
+    use std::ops::Range;
+
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(all: &[usize], to: S) -> Result<S::Ok, S::Error> {
+        let runs = all.chunk_by(|one, next| one + 1 == *next);
+        to.collect_seq(runs.filter_map(|own| Some(*own.first()?..own.last()? + 1)))
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Vec<usize>, D::Error> {
+        Ok(Vec::<Range<usize>>::deserialize(from)?.into_iter().flatten().collect())
+    }
 }

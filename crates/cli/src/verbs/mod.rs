@@ -14,7 +14,7 @@ mod printed;
 mod rheometer;
 pub(crate) mod run;
 mod signal;
-mod sweep;
+pub(crate) mod sweep;
 mod thesis;
 mod vibrate;
 

@@ -30,7 +30,7 @@ use dashpot_analysis::{
 use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
 use serde::{Deserialize, Serialize};
 
-pub(crate) use self::shards::{MergeArguments, merged};
+pub(crate) use self::shards::{MISSING_HELP, MergeArguments, ShardFault, merged, missing};
 use self::{
     shards::{OfShard, Place, Stored},
     varied::{Form, Varied},
@@ -41,7 +41,7 @@ use crate::{
         LimitArguments, MOST_POINTS as MOST, SceneArguments, When, budget, method_names, samples,
         share,
     },
-    error::{CliError, ShardFault, Status},
+    error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
     numbers::counted,
@@ -192,20 +192,7 @@ fn solved_or_merged(
     stored: Option<Vec<Stored>>,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let input = Input::of(arguments.scene.scene.as_deref())?;
-    let set = &arguments.scene.values.set;
-    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
-    print_notes(&scene.notes);
-    let varied = Varied::of(arguments, &scene.text, &input.file)?;
-    if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
-        return Err(CliError::SetAndVaried { name: name.clone() });
-    }
-    // What is set by a path stands in that text.
-    let is_named = |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
-    let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
-    let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
+    let Asked { input, set, scene, known, varied, grid } = Asked::read(arguments, terminal)?;
     let further = arguments.limits.beside(&scene.limits)?;
     let scene_point = |posed: Posed| {
         let method = match (&arguments.method, &posed.run.methods[..]) {
@@ -233,14 +220,7 @@ fn solved_or_merged(
     {
         return Ok(Status::Done);
     }
-    let folder = Folder::wanted(
-        arguments.output.out.as_deref(),
-        match (arguments.gradient.is_empty(), arguments.shard) {
-            (false, _) => vec![gradient::TABLE.to_owned()],
-            (true, Some(_)) => vec![shards::VALUES.to_owned()],
-            (true, None) => files::names(&varied, &columns),
-        },
-    )?;
+    let folder = arguments.folder(&varied, &columns)?;
     let of_text = |text: &str| {
         let posed = pose(text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(Diagnostic::message);
@@ -254,7 +234,7 @@ fn solved_or_merged(
         Ok(scene_point)
     };
     let of = (&varied, &grid, arguments.points.as_deref());
-    terminal.diagnose(&of_ends(of, (&input, &set), checked.warnings.list)?);
+    terminal.diagnose(&of_ends(of, (&input, &set), known)?);
     if !arguments.gradient.is_empty() {
         return gradient::gradient(
             arguments,
@@ -283,6 +263,39 @@ fn solved_or_merged(
             figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
             Ok(status(&swept.report, arguments.enforce))
         }
+    }
+}
+
+/// The scene of a sweep, and its grid.
+struct Asked {
+    input: Input,
+    /// Values of the table [values] that are set.
+    set: Vec<(String, String)>,
+    scene: Scene,
+    /// What is odd about it.
+    known: Vec<Diagnostic>,
+    varied: Varied,
+    grid: Grid,
+}
+
+impl Asked {
+    fn read(arguments: &SweepArguments, terminal: Terminal) -> Result<Self, CliError> {
+        let input = Input::of(arguments.scene.scene.as_deref())?;
+        let set = &arguments.scene.values.set;
+        let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+        terminal.diagnose(&checked.warnings);
+        let scene = checked.value;
+        print_notes(&scene.notes);
+        let varied = Varied::of(arguments, &scene.text, &input.file)?;
+        if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
+            return Err(CliError::SetAndVaried { name: name.clone() });
+        }
+        // What is set by a path stands in that text.
+        let is_named =
+            |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
+        let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
+        let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
+        Ok(Self { input, set, scene, known: checked.warnings.list, varied, grid })
     }
 }
 
@@ -351,6 +364,16 @@ fn of_ends(
 }
 
 impl SweepArguments {
+    /// The folder that is asked for, where one is.
+    fn folder(&self, varied: &Varied, columns: &[Column]) -> Result<Option<Folder>, CliError> {
+        let names = match (self.gradient.is_empty(), self.shard) {
+            (false, _) => vec![gradient::TABLE.to_owned()],
+            (true, Some(_)) => vec![shards::VALUES.to_owned()],
+            (true, None) => files::names(varied, columns),
+        };
+        Folder::wanted(self.output.out.as_deref(), names)
+    }
+
     fn threads(&self) -> usize {
         self.threads.or(available_parallelism().ok()).map_or(1, NonZero::get)
     }

@@ -9,10 +9,11 @@ use clap::Args;
 use dashpot_analysis::sweep::{Column, Shard};
 use dashpot_scene::Scene;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::{OutputArguments, SweepArguments, solved_or_merged};
 use crate::{
-    error::{CliError, ShardFault, Status},
+    error::{CliError, Status},
     folder::{RESULT, Staged},
     input::title,
     numbers::counted,
@@ -43,6 +44,60 @@ pub(crate) struct MergeArguments {
     enforce: bool,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+/// What is wrong with a folder of a shard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub(crate) enum ShardFault {
+    /// There is no result of a shard.
+    #[error("there is no shard of a sweep in it, or not yet")]
+    None,
+    /// Its values are gone, or not those that were written.
+    #[error("the values of its shard are not as they were written")]
+    Broken,
+    /// It is of another sweep than the others.
+    #[error("its shard is of another sweep than the first one")]
+    OfAnother,
+    /// The scene, a file of it, or the program is another one by now.
+    #[error(
+        "the scene, a file of it or the version of the program has changed since its shard was solved"
+    )]
+    Changed,
+    /// There is a shard of another sweep where this one is to be written.
+    #[error("there is a shard of another sweep in it")]
+    Taken,
+    /// It is there twice.
+    #[error("its shard is there twice")]
+    Twice,
+}
+
+impl ShardFault {
+    /// What to do.
+    pub(crate) fn help(self) -> &'static str {
+        match self {
+            Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
+            Self::Broken => "remove the folder, and solve the shard again",
+            Self::OfAnother | Self::Twice => "leave the folder out",
+            Self::Changed => "solve all shards again, or bring back what was changed",
+            Self::Taken => "choose another folder for `--out`, or remove this one",
+        }
+    }
+}
+
+/// What to do about shards that are missing.
+pub(crate) const MISSING_HELP: &str =
+    "solve them with the same command; shards that are there already are left as they are";
+
+/// `2 shards of 10 are missing: 3, 7`; of many the first.
+pub(crate) fn missing(numbers: &[usize], of: usize) -> String {
+    const MOST: usize = 12;
+    let mut words: Vec<String> = numbers.iter().take(MOST).map(usize::to_string).collect();
+    if numbers.len() > MOST {
+        words.push("…".to_owned());
+    }
+    let (count, verb) =
+        (counted(numbers.len(), "shard"), if numbers.len() == 1 { "is" } else { "are" });
+    format!("{count} of {of} {verb} missing: {}", words.join(", "))
 }
 
 /// Which shard of how many.
