@@ -24,6 +24,7 @@ mod scene_point;
 mod serialized;
 mod shown;
 mod stamper;
+mod stopped;
 mod sums;
 mod table;
 

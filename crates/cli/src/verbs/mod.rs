@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod convert;
 mod cost;
+mod cushion;
 mod design;
 mod explain;
 mod fit;
@@ -76,6 +77,8 @@ pub(crate) enum Command {
     Sweep(sweep::SweepArguments),
     /// Searches the best numbers of a scene within its limits, and tells what no pad can beat.
     Design(design::DesignArguments),
+    /// Draws cushion curves: peak g over static stress, for thicknesses and heights of the drop.
+    Cushion(cushion::CushionArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
     Fit(fit::FitArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
@@ -117,6 +120,7 @@ impl Command {
             Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
             Self::Design(arguments) => design::design(arguments, terminal),
+            Self::Cushion(arguments) => cushion::cushion(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
             Self::Thesis(arguments) => thesis::thesis(arguments, terminal),
