@@ -11,7 +11,7 @@ const CHAPTERS: [(&str, usize, usize); 21] = [
     ("gradients", 1, 0),
     ("fit", 6, 0),
     ("design", 4, 0),
-    ("cushion", 3, 1),
+    ("cushion", 4, 1),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),
