@@ -113,7 +113,7 @@ fn the_thinnest_cushion_keeps_the_limit_and_a_thinner_one_does_not() {
     let folder = TempDir::new().unwrap();
     let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), ""));
     let path = text(&path);
-    let asked = ["--heights", "76 cm", "--thickness", "2..10 cm,5", "--limit", "50 g"];
+    let asked = ["--heights", "76 cm", "--thickness", "2..14 cm,5", "--limit", "50 g"];
     let over = ["--over", "4..9 kPa"];
     let own = json(&[&["cushion", path, "--json"], &asked[..], &over].concat());
     let thinnest = own["thinnest"][0]["thickness"].as_f64().unwrap();
@@ -162,7 +162,7 @@ fn what_is_no_cushion_test_says_what_to_write() {
     for (arguments, told) in [
         (vec!["--heights", "30 kPa"], "length"),
         (vec!["--stress", "5 cm"], "pressure"),
-        (vec!["--limit", "50 kg"], "acceleration"),
+        (vec!["--limit", "50 kg"], "m/s^2"),
         (vec!["--over", "4..9 kPa"], "--limit"),
         (vec!["--platen", "parcels"], "parcel"),
         (vec!["--pad", "foam"], "cushion"),
