@@ -21,6 +21,7 @@ mod contact_geometry;
 mod conversions;
 mod cost;
 mod curve_files;
+mod cushion;
 mod design;
 mod designs;
 mod displaced_starts;

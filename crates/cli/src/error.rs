@@ -11,6 +11,7 @@ use dashpot_analysis::{
     vibration::VibrationError,
 };
 use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
+use dashpot_design::cushion::NoCushion;
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
@@ -78,6 +79,9 @@ pub(crate) enum CliError {
         /// Why the first of them cannot.
         reason: String,
     },
+    /// A scene that is no drop onto a cushion.
+    #[error(transparent)]
+    Cushion(Box<NoCushion>),
     /// A time is asked for that the run does not reach \[s\].
     #[error(
         "`--at {}` lies beyond the end of the run, {}",
@@ -235,6 +239,16 @@ impl From<SweepError> for CliError {
     }
 }
 
+impl From<NoCushion> for CliError {
+    fn from(error: NoCushion) -> Self {
+        match error {
+            NoCushion::Run(error) => Self::Run(error),
+            NoCushion::Sweep(error) => error.into(),
+            error => Self::Cushion(Box::new(error)),
+        }
+    }
+}
+
 /// An error of the system at this path.
 pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> {
     let path = path.to_owned();
@@ -290,6 +304,7 @@ impl CliError {
             Self::BeyondEnd { .. } => {
                 Some("give a time within it, or a longer `duration` in [run]".to_owned())
             }
+            Self::Cushion(error) => Some(cushion_help(error).to_owned()),
             Self::NothingToKeep { .. } | Self::NoLimits => Some(
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
                     .to_owned(),
@@ -491,4 +506,29 @@ pub(crate) fn is_unit(word: &str) -> bool {
 /// What to write where the blank before a unit has divided a quantity.
 pub(crate) fn unquoted_help(unit: &str) -> String {
     format!("`{unit}` is a unit: quote what belongs together, such as \"K=25 {unit}\"")
+}
+
+/// What to write where a scene is no drop onto a cushion.
+fn cushion_help(error: &NoCushion) -> &'static str {
+    match error {
+        NoCushion::NotOneBody { .. } => {
+            "give one node `drop` or `velocity`, or name the one that falls: `--platen NAME`"
+        }
+        NoCushion::NotOnePad { .. } => {
+            "give the element its `thickness` and `area`, or name it where there are several: `--pad NAME`"
+        }
+        NoCushion::Unknown { .. } => "write one of these names",
+        NoCushion::Hangs { .. } => {
+            "leave out what else is fastened to the platen; the guide of a drop tester bears no load"
+        }
+        NoCushion::NoArea { .. } => "give it one, `area = \"400 cm^2\"`, as the specimen has it",
+        NoCushion::NoWeight { .. } => "give gravity a positive `value`, or leave it out for 1 g0",
+        NoCushion::NoHeight { .. } => "give the body a `drop`, or `--heights \"30,60,90 cm\"`",
+        NoCushion::NoStress { .. } => "give a range: `--stress \"1..20 kPa,40,log\"`",
+        NoCushion::NoCreep { .. } => "leave `--creep` out for this cushion",
+        NoCushion::Network(_)
+        | NoCushion::NotPosed(_)
+        | NoCushion::Run(_)
+        | NoCushion::Sweep(_) => "`dashpot check SCENE` tells more",
+    }
 }

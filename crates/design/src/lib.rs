@@ -1,4 +1,6 @@
-//! From a model to a design: the best numbers within limits, and what no pad can beat.
+//! From a model to a design: the best numbers within limits, what no pad can beat, and cushion
+//! curves.
 
+pub mod cushion;
 pub mod floor;
 pub mod optimum;

@@ -31,9 +31,10 @@ pub use figures::model::{
     RheometerSeries,
 };
 pub use figures::{
-    ElementSeries, EnergySeries, Figure, FitChannel, FitFigure, FitQuantity, FitRow, FitSeries,
-    MeasuredSeries, NodeSeries, Of, PrecisionCurve, PrecisionSeries, RunLimit, RunMarker,
-    RunMarkerKind, RunSeries, VibrationCurve, VibrationSeries,
+    CushionCurve, CushionMark, CushionSeries, ElementSeries, EnergySeries, Figure, FitChannel,
+    FitFigure, FitQuantity, FitRow, FitSeries, MeasuredSeries, NodeSeries, Of, PrecisionCurve,
+    PrecisionSeries, RunLimit, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
+    VibrationSeries,
 };
 pub use map::{Map, MapLimit, Side};
 pub use report::{Report, ReportFigure, Table};

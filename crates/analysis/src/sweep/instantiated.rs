@@ -5,6 +5,7 @@ use dashpot_network::{ConnectionOutputs, ParametricSystem};
 use super::{
     Column, Estimates, Grid, Pose, ScenePoint as Scene, SweepOptions,
     stamper::{Sized, Stamper},
+    stopped,
     table::Table,
 };
 use crate::{
@@ -50,11 +51,14 @@ impl<'g> Plan<'g> {
             return None;
         }
         let duration = settings.duration;
-        let parametric = ParametricSystem::of(&first.network, duration)?;
+        let parametric = ParametricSystem::of(&stopped::unmet(&first.network), duration)?;
         if parametric.states() > MOST_STATES {
             return None;
         }
         let struck = parametric.element();
+        if !stopped::are_at(&first.network, &first.network.connections()[struck].name) {
+            return None;
+        }
         let assembly = first
             .network
             .compile(duration)

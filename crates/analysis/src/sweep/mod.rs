@@ -26,6 +26,7 @@ mod serialized;
 mod shards;
 mod shown;
 mod stamper;
+mod stopped;
 mod sums;
 mod table;
 

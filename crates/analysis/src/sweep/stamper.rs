@@ -164,6 +164,9 @@ impl<const N: usize> Sized<'_, N> {
             }
             (*value, *error) = (own.value, own.error);
         }
+        if Besides::of(&self.numbers).are_stopped(impact.depth) {
+            return None;
+        }
         let deepest = (impact.depth, impact.deepest_at * time);
         Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
     }
@@ -178,7 +181,8 @@ impl<const N: usize> Sized<'_, N> {
         }
         let is_known = known.error.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());
-        (is_known && is_finite).then(|| self.noticed(&course))
+        let is_free = !Besides::of(&self.numbers).are_stopped(self.depth(&course));
+        (is_known && is_finite && is_free).then(|| self.noticed(&course))
     }
 
     /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and the last
@@ -190,6 +194,9 @@ impl<const N: usize> Sized<'_, N> {
         let read = |course: &Course<N>| self.plan.seen(course, &self.numbers);
         let suffice = |values: &[f64], errors: &[f64]| self.suffice(values, errors);
         let found = with_bars(&stepped, &tolerances, &read, &suffice)?;
+        if Besides::of(&self.numbers).are_stopped(self.depth(&found.course)) {
+            return None;
+        }
         values.copy_from_slice(&found.values);
         errors.copy_from_slice(&found.errors);
         Some((self.noticed(&found.course), found.others))
@@ -209,10 +216,13 @@ impl<const N: usize> Sized<'_, N> {
 
     fn noticed(&self, course: &Course<N>) -> Notice {
         let time = self.plan.parametric.time_scale();
-        let deepest = course.deepest;
-        let error = self.plan.strictest() * deepest.value;
-        let depth = Figure { value: deepest.value, error };
-        self.plan.notice((depth, deepest.time * time), course.release * time, &self.numbers)
+        let deepest = course.deepest.time * time;
+        self.plan.notice((self.depth(course), deepest), course.release * time, &self.numbers)
+    }
+
+    fn depth(&self, course: &Course<N>) -> Figure {
+        let value = course.deepest.value;
+        Figure { value, error: self.plan.strictest() * value }
     }
 
     fn suffice(&self, values: &[f64], errors: &[f64]) -> bool {

@@ -7,6 +7,8 @@ use dashpot_network::{Network, ParametricSystem};
 use super::{
     Grid, Pose,
     parallel::{GROUP, share},
+    scene_point::Figure,
+    stopped::{gap, unmet},
 };
 
 /// Numbers that are products of others may be so many roundings off.
@@ -31,6 +33,8 @@ pub(super) struct Besides {
     pub(super) thickness: f64,
     /// That of the thinnest of its parts.
     pub(super) thinnest: f64,
+    /// The deformation at which its stop is met \[m\]; not a number where it has none.
+    pub(super) gap: f64,
     /// How long what strikes falls before \[s\].
     pub(super) fall: f64,
 }
@@ -38,10 +42,15 @@ pub(super) struct Besides {
 impl Besides {
     /// Those of these numbers.
     pub(super) fn of(numbers: &[f64]) -> Self {
-        let &[.., thickness, thinnest, fall] = numbers else {
-            return Self { thickness: f64::NAN, thinnest: f64::NAN, fall: f64::NAN };
+        let &[.., thickness, thinnest, gap, fall] = numbers else {
+            return Self { thickness: f64::NAN, thinnest: f64::NAN, gap: f64::NAN, fall: f64::NAN };
         };
-        Self { thickness, thinnest, fall }
+        Self { thickness, thinnest, gap, fall }
+    }
+
+    /// Whether the stop may be met where the element is pressed in so far \[m\].
+    pub(super) fn are_stopped(&self, depth: Figure) -> bool {
+        !self.gap.is_nan() && depth.value + depth.error >= self.gap
     }
 }
 
@@ -140,10 +149,11 @@ impl Table {
 }
 
 fn numbers(parametric: &ParametricSystem, network: &Network) -> Option<Vec<f64>> {
-    let mut numbers = parametric.numbers(network)?;
+    let mut numbers = parametric.numbers(&unmet(network))?;
     let struck = &network.connections()[parametric.element()];
     let thinnest = struck.pads.iter().map(|pad| pad.thickness).fold(f64::NAN, f64::min);
     let fall = if parametric.opens() { network.time_of_fall() } else { 0.0 };
-    numbers.extend([struck.thickness.unwrap_or(f64::NAN), thinnest, fall]);
+    let gap = gap(network, &struck.name, struck.thickness);
+    numbers.extend([struck.thickness.unwrap_or(f64::NAN), thinnest, gap, fall]);
     Some(numbers)
 }

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod convert;
 mod cost;
+mod cushion;
 mod design;
 mod explain;
 mod fit;
@@ -78,6 +79,8 @@ pub(crate) enum Command {
     Merge(sweep::MergeArguments),
     /// Searches the best numbers of a scene within its limits, and tells what no pad can beat.
     Design(design::DesignArguments),
+    /// Draws cushion curves: peak g over static stress, for thicknesses and heights of the drop.
+    Cushion(cushion::CushionArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
     Fit(fit::FitArguments),
     /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
@@ -120,6 +123,7 @@ impl Command {
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
             Self::Merge(arguments) => sweep::merged(arguments, terminal),
             Self::Design(arguments) => design::design(arguments, terminal),
+            Self::Cushion(arguments) => cushion::cushion(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
             Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
             Self::Thesis(arguments) => thesis::thesis(arguments, terminal),

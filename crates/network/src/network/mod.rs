@@ -317,6 +317,15 @@ impl Network {
         connection.layers = None;
     }
 
+    /// Gives a node another mass \[kg\].
+    ///
+    /// # Panics
+    ///
+    /// When it is a node of another network.
+    pub fn set_mass(&mut self, node: NodeId, mass: f64) {
+        self.nodes[node.0].mass = mass;
+    }
+
     /// Gives a node another start.
     ///
     /// # Panics

@@ -1,6 +1,7 @@
 //! The registers of figures: of [runs](FIGURES), of [models](model::MODEL_FIGURES), of [fits](FIT_FIGURES), and what
-//! vibrations and costs are drawn as.
+//! vibrations, costs and cushion curves are drawn as.
 
+mod cushion;
 mod fits;
 pub mod model;
 mod runs;
@@ -8,6 +9,7 @@ mod unit;
 mod vibration;
 mod work_precision;
 
+pub use cushion::{CushionCurve, CushionMark, CushionSeries};
 pub use fits::{
     CREEP, FIT_FIGURES, FitChannel, FitFigure, FitQuantity, FitRow, FitSeries, HISTORY,
     OSCILLATION, RELAXATION,

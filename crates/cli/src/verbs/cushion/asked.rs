@@ -1,0 +1,163 @@
+//! What cushion curves are asked for: heights, thicknesses, stresses and a limit, from the command and the scene.
+
+use dashpot_analysis::{Bound, measures::PeakAcceleration, sweep::ScenePoint};
+use dashpot_design::cushion::{Asked, NoCushion, Platen, PoseOfThickness, Row};
+use dashpot_network::parameters::{Dimension, Kind as _};
+use dashpot_scene::{Diagnostic, Scene, Tunables, Variation, pose, units::si_unit};
+
+use super::CushionArguments;
+use crate::{
+    error::CliError,
+    input::{Input, setting},
+    output::list,
+};
+
+/// More curves are not drawn.
+const MOST_CURVES: usize = 200;
+/// More points of a curve are not solved.
+const MOST_POINTS: usize = 10_000;
+
+/// What is wanted of a scene.
+pub(super) struct Wanted {
+    pub(super) platen: Platen,
+    pub(super) asked: Asked,
+    /// Where the thickness stands in the text; `None` where it stays.
+    thickness: Option<usize>,
+    tunables: Tunables,
+}
+
+impl Wanted {
+    pub(super) fn of(
+        arguments: &CushionArguments,
+        scene: &Scene,
+        input: &Input,
+    ) -> Result<Self, CliError> {
+        let CushionArguments { platen, pad, .. } = arguments;
+        let platen = Platen::of(&scene.network, platen.as_deref(), pad.as_deref())?;
+        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+        let heights = lengths("--heights", arguments.heights.as_deref())?;
+        let no_height = || NoCushion::NoHeight { body: platen.body.clone() };
+        let heights = match heights {
+            Some(own) => own,
+            None => vec![platen.height.ok_or_else(no_height)?],
+        };
+        let given = lengths("--thickness", arguments.thickness.as_deref())?;
+        let thickness = match given {
+            Some(_) => Some(tunable(&tunables, &platen.pad)?),
+            None => None,
+        };
+        let thicknesses = given.unwrap_or_else(|| vec![platen.thickness]);
+        let pressures = |flag, text: Option<&str>| values(flag, text, Dimension::PRESSURE);
+        let stresses = pressures("--stress", arguments.stress.as_deref())?.unwrap_or_default();
+        let over = pressures("--over", arguments.over.as_deref())?;
+        let over = over.map(|own| [own[0], own[own.len() - 1]]);
+        let limit = limit(arguments, scene, &platen)?;
+        let is_too_much = heights.len().saturating_mul(thicknesses.len()) > MOST_CURVES;
+        if is_too_much || stresses.len() > MOST_POINTS {
+            return Err(CliError::TooManyPoints { most: MOST_CURVES * MOST_POINTS });
+        }
+        if over.is_some() && limit.is_none() {
+            let reason =
+                "it is over this range that a limit has to be kept: give one, `--limit \"50 g\"`";
+            return Err(CliError::WrongSetting {
+                name: "--over".to_owned(),
+                reason: reason.to_owned(),
+            });
+        }
+        let time = |flag: &str, text: &str| -> Result<f64, CliError> {
+            let own = setting(flag, text.trim(), Dimension::TIME)?;
+            let reason = format!("`{text}` is not above zero");
+            let wrong = || CliError::WrongSetting { name: flag.to_owned(), reason };
+            (own > 0.0).then_some(own).ok_or_else(wrong)
+        };
+        let between = time("--between", &arguments.between)?;
+        let row = arguments.drops.map(|own| Row { drops: usize::from(own), between });
+        let creep = arguments.creep.iter().map(|own| time("--creep", own));
+        let mut creep = creep.collect::<Result<Vec<_>, _>>()?;
+        creep.sort_by(f64::total_cmp);
+        let asked = Asked { heights, thicknesses, stresses, limit, over, row, creep, threads: 1 };
+        Ok(Self { platen, asked, thickness, tunables })
+    }
+
+    /// What poses the scene with the cushion at a thickness.
+    pub(super) fn pose<'s>(
+        &'s self,
+        input: &'s Input,
+        set: &'s [(String, String)],
+        method: Option<&'s str>,
+    ) -> Box<PoseOfThickness<'s>> {
+        Box::new(move |thickness: f64| {
+            let value = format!("{thickness:e} {}", si_unit(Dimension::LENGTH));
+            let values = list(self.thickness.map(|at| (at, value)));
+            let posed = pose(&self.tunables.text_with(&values), &input.options(set));
+            let posed = posed
+                .map_err(|faults| list(faults.list.iter().map(Diagnostic::message)).join("; "))?;
+            let method = match (method, &posed.run.methods[..]) {
+                (Some(wanted), _) => wanted,
+                (None, [only]) => only,
+                _ => "auto",
+            };
+            let settings = posed.settings(method).map_err(|error| error.to_string())?;
+            Ok(ScenePoint { network: posed.network, settings })
+        })
+    }
+}
+
+/// Where the thickness of the cushion stands in the text.
+fn tunable(tunables: &Tunables, pad: &str) -> Result<usize, CliError> {
+    let name = format!("elements.{pad}.thickness");
+    tunables.find(&name).map_err(|_| CliError::WrongSetting {
+        name: "--thickness".to_owned(),
+        reason: format!(
+            "the scene has no number for the thickness of `{pad}` that could be varied: write it at the element, \
+             `thickness = \"5 cm\"`, or as the name of one of [values]"
+        ),
+    })
+}
+
+/// The most that the peak may be: that of the command, or the least one of the scene.
+fn limit(
+    arguments: &CushionArguments,
+    scene: &Scene,
+    platen: &Platen,
+) -> Result<Option<f64>, CliError> {
+    if let Some(text) = &arguments.limit {
+        let own = setting("--limit", text, Dimension::ACCELERATION)?;
+        if own > 0.0 {
+            return Ok(Some(own));
+        }
+        let reason = format!("`{text}` is not above zero");
+        return Err(CliError::WrongSetting { name: "--limit".to_owned(), reason });
+    }
+    let key = format!("{}.{}", platen.body, PeakAcceleration::KIND);
+    let own = scene.limits.iter().filter(|own| own.key == key);
+    let own = own.filter_map(|own| match own.bound {
+        Bound::Max(most) => Some(most),
+        Bound::Min(_) => None,
+    });
+    Ok(own.reduce(f64::min))
+}
+
+fn lengths(flag: &str, text: Option<&str>) -> Result<Option<Vec<f64>>, CliError> {
+    values(flag, text, Dimension::LENGTH)
+}
+
+/// The values of a range or a list, in SI units, rising and positive.
+fn values(
+    flag: &str,
+    text: Option<&str>,
+    dimension: Dimension,
+) -> Result<Option<Vec<f64>>, CliError> {
+    let Some(text) = text else { return Ok(None) };
+    let wrong = |reason: String| CliError::WrongSetting { name: flag.to_owned(), reason };
+    let own = Variation::parse(&format!("values={text}"));
+    let own = own.map_err(|fault| wrong(fault.to_string()))?;
+    let what = dimension.named().map_or("quantity of that kind", |own| own.0);
+    if own.is_of_words() || own.dimension != Some(dimension) {
+        return Err(wrong(format!("`{text}` is no {what}: give values with a unit of one")));
+    }
+    if own.values.iter().any(|own| !(own.is_normal() && *own > 0.0)) {
+        return Err(wrong(format!("`{text}` is not above zero throughout")));
+    }
+    Ok(Some(own.values))
+}

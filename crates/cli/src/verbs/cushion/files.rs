@@ -1,0 +1,122 @@
+//! What `cushion` writes into a folder.
+
+use std::io;
+
+use dashpot_design::cushion::{Asked, Curve, Known};
+use dashpot_plot::{CushionCurve, CushionMark, CushionSeries, Report, ReportFigure, Table};
+
+use super::{
+    Drawn, beside,
+    words::{self, in_g, in_kpa, length},
+};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    input::title,
+    origin,
+    output::{PAGE, csv, list},
+    said, sketch,
+};
+
+/// All points of all curves.
+const TABLE: &str = "cushion.csv";
+
+/// `cushion-760mm.svg`.
+fn figure_file(height: f64) -> String {
+    format!("cushion-{}.svg", length(height).replace(' ', ""))
+}
+
+/// The files that are written besides the result.
+pub(super) fn names(asked: &Asked) -> Vec<String> {
+    let figures = asked.heights.iter().map(|own| figure_file(*own));
+    figures.chain([TABLE, PAGE].map(str::to_owned)).collect()
+}
+
+/// Adds all files but the result.
+pub(super) fn write(files: &mut Staged<'_>, drawn: &Drawn) -> Result<(), CliError> {
+    files.add_with(TABLE, |out| table(drawn, out))?;
+    let mut figures = Vec::new();
+    for height in &drawn.wanted.asked.heights {
+        let own = ReportFigure::of(&series(drawn, *height).chart())?;
+        files.add(figure_file(*height), &own.svg)?;
+        figures.push(own);
+    }
+    files.add(PAGE, page(drawn, figures).html())
+}
+
+/// Writes all points in SI units as CSV; what is missing is blank.
+pub(super) fn table(drawn: &Drawn, out: &mut dyn io::Write) -> io::Result<()> {
+    let header = [
+        "height [m]",
+        "thickness [m]",
+        "static stress [Pa]",
+        "peak acceleration [m/s^2]",
+        "error [m/s^2]",
+        "strain [1]",
+        "known",
+    ];
+    let rows = drawn.cushion.curves.iter().flat_map(|curve| {
+        curve.points.iter().map(|own| {
+            let number = |own: f64| own.is_finite().then_some(own);
+            let all = [own.stress, own.peak, own.error, own.strain].map(number);
+            (curve.height, curve.thickness, all, own.known.word())
+        })
+    });
+    csv(out, header.map(str::to_owned), rows)
+}
+
+/// The curves of one height as the plain numbers that a figure is drawn from.
+fn series(drawn: &Drawn, height: f64) -> CushionSeries {
+    let of_height = |own: &&Curve| own.height.to_bits() == height.to_bits();
+    CushionSeries {
+        title: format!("Cushion curves, drops from {}", length(height)),
+        note: title(&drawn.scene).to_owned(),
+        curves: drawn.cushion.curves.iter().filter(of_height).map(curve).collect(),
+        limit: drawn.wanted.asked.limit.map(|own| in_g().of(own)),
+    }
+}
+
+fn curve(own: &Curve) -> CushionCurve {
+    let place = |stress: f64, peak: f64| (in_kpa().of(stress), in_g().of(peak));
+    let mut points = list(own.points.iter().map(|own| {
+        let mark = match own.known {
+            Known::Whole | Known::Unsolved => CushionMark::Known,
+            Known::OnStop => CushionMark::OnStop,
+            Known::BeyondLaw | Known::PressedThrough => CushionMark::Beyond,
+        };
+        let (x, y) = place(own.stress, own.peak);
+        (x, y, mark)
+    }));
+    let best = own.best.map(|own| place(own.point.stress, own.point.peak));
+    if let Some((x, y)) = best {
+        let at = points.partition_point(|own| own.0 < x);
+        if points.get(at).is_none_or(|own| own.0 > x) {
+            points.insert(at, (x, y, CushionMark::Known));
+        }
+    }
+    let floor = own.floor.map(|own| in_g().of(own));
+    let later = own.points.iter().zip(&own.repeated);
+    let later = list(later.map(|(own, row)| place(own.stress, row.later())));
+    CushionCurve { name: length(own.thickness), points, floor, best, later }
+}
+
+/// Everything on one page.
+fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Report {
+    let scene = &drawn.scene;
+    let settings = Table::new("Settings", &[], origin::rows(scene));
+    let verdict = words::lines(drawn).into_iter().map(|own| own.text);
+    let remarks = words::notes(drawn).into_iter().chain(said::notes(scene));
+    let beside = [beside::row_table(drawn), beside::creep_table(drawn)];
+    let tables = [words::table(drawn)].into_iter().chain(beside);
+    let tables = tables.chain([Table::list("Remarks", remarks)]);
+    Report {
+        title: title(scene).to_owned(),
+        warnings: said::warnings(scene, &[]),
+        verdict: [words::asked(drawn)].into_iter().chain(verdict).collect(),
+        network: sketch::figure(scene),
+        tables: tables.into_iter().filter(|own| !own.rows.is_empty()).collect(),
+        figures,
+        details: vec![settings],
+        scene_text: scene.text.to_string(),
+    }
+}

@@ -1,0 +1,158 @@
+//! `dashpot cushion`.
+
+mod asked;
+mod beside;
+mod files;
+mod object;
+mod words;
+
+use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+
+use clap::Args;
+use dashpot_design::cushion::{Cushion, Known, cushion as solve};
+use dashpot_scene::{Scene, read};
+use serde::Serialize;
+
+use self::asked::Wanted;
+use crate::{
+    args::{SceneArguments, method_names},
+    error::{CliError, Status},
+    folder::{Folder, Staged},
+    input::{Input, title},
+    operand::print_notes,
+    output::{Study, Text, emit},
+    progress::Bar,
+    terminal::Terminal,
+};
+
+/// Columns of labels.
+const LABELS: usize = 11;
+
+/// `cushion`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    dashpot cushion parcel.toml\n  \
+    dashpot cushion parcel.toml --heights \"30,60,90 cm\" --thickness \"2..10 cm,5\" \\\n    \
+    --stress \"1..20 kPa,40,log\" --out curves\n  \
+    dashpot cushion parcel.toml --heights \"76 cm\" --thickness \"2..10 cm,5\" \\\n    \
+    --limit \"50 g\" --over \"4..9 kPa\"\n\n\
+    The layout of ASTM D1596: a flat platen is guided onto the cushion, and its static stress,\n\
+    weight over area, is varied by its mass; the area is that of the scene. Gravity acts and the\n\
+    platen may leave the cushion, whether or not the scene says so.")]
+pub(crate) struct CushionArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// The mass that falls [default: the only one that moves at first].
+    #[arg(long, value_name = "NAME")]
+    platen: Option<String>,
+    /// The element that is the cushion [default: the only one with a thickness under the mass].
+    #[arg(long, value_name = "NAME")]
+    pad: Option<String>,
+    /// Heights of the drop, such as "30,60,90 cm" [default: the scene's].
+    #[arg(long, value_name = "LENGTHS")]
+    heights: Option<String>,
+    /// Thicknesses of the cushion, such as "2..10 cm,5" [default: the scene's].
+    #[arg(long, value_name = "LENGTHS")]
+    thickness: Option<String>,
+    /// Static stresses, such as "1..20 kPa,40,log" [default: 40 about the best ones].
+    #[arg(long, value_name = "PRESSURES")]
+    stress: Option<String>,
+    /// The most that the peak may be, such as "50 g" [default: the scene's limit on the peak acceleration of the mass].
+    #[arg(long, value_name = "ACCELERATION")]
+    limit: Option<String>,
+    /// The range of static stresses over which the thinnest cushion has to keep the limit, such as "4..9 kPa".
+    #[arg(long, value_name = "PRESSURES")]
+    over: Option<String>,
+    /// So many drops in a row on the same cushion, at every point of the curves.
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(2..=20))]
+    drops: Option<u16>,
+    /// The time from one drop to the next.
+    #[arg(long, value_name = "TIME", default_value = "60 s", requires = "drops")]
+    between: String,
+    /// Compression under the weight that stays, after these times, such as "1 min,1 h,24 h".
+    #[arg(long, value_name = "TIMES", value_delimiter = ',')]
+    creep: Vec<String>,
+    /// Method for all drops [default: the scene's, if it names one, else auto].
+    #[arg(long, value_name = "NAME", value_parser = method_names())]
+    method: Option<String>,
+    /// How many threads share the drops; the results are the same [default: one per core].
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<NonZero<usize>>,
+    /// Folder for CSV, JSON, one figure for each height, and report.html with everything on one page.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints one JSON object, in SI units, in place of text.
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// Prints all points as CSV, in SI units, in place of text.
+    #[arg(long, conflicts_with = "out")]
+    csv: bool,
+}
+
+/// Cushion curves of a scene.
+struct Drawn {
+    scene: Scene,
+    wanted: Wanted,
+    cushion: Cushion,
+    is_csv: bool,
+}
+
+/// Draws cushion curves.
+pub(crate) fn cushion(
+    arguments: &CushionArguments,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let input = Input::of(arguments.scene.scene.as_deref())?;
+    let set = &arguments.scene.values.set;
+    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+    terminal.diagnose(&checked.warnings);
+    let scene = checked.value;
+    print_notes(&scene.notes);
+    let wanted = Wanted::of(arguments, &scene, &input)?;
+    let folder = Folder::wanted(arguments.out.as_deref(), files::names(&wanted.asked))?;
+    let all = || available_parallelism().map_or(1, NonZero::get);
+    let mut asked = wanted.asked.clone();
+    asked.threads = arguments.threads.map_or_else(all, NonZero::get);
+    let mut bar = Bar::new("cushion", 0.0, terminal.error.attended);
+    let mut show =
+        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    let pose = wanted.pose(&input, set, arguments.method.as_deref());
+    let found = solve(&wanted.platen, &asked, &*pose, &mut show)?;
+    drop(pose);
+    let is_unsolved = |own: &Known| *own == Known::Unsolved;
+    let mut points = found.curves.iter().flat_map(|own| &own.points);
+    let has_failed = points.all(|own| is_unsolved(&own.known));
+    let drawn = Drawn { scene, wanted, cushion: found, is_csv: arguments.csv };
+    emit(&drawn, arguments.json, folder, terminal)?;
+    Ok(if has_failed { Status::RunFailed } else { Status::Done })
+}
+
+impl Study for Drawn {
+    fn text(&self, text: &mut Text) {
+        text.title(title(&self.scene));
+        text.faint(&words::asked(self));
+        text.blank();
+        for line in words::lines(self) {
+            text.labelled(line.label, LABELS, &line.text);
+        }
+        text.rows_below(&words::table(self));
+        text.table(&beside::row_table(self));
+        text.table(&beside::creep_table(self));
+        text.blank();
+        text.items(words::notes(self));
+    }
+
+    fn data(&self, _terminal: Terminal) -> Option<String> {
+        let mut bytes = Vec::new();
+        files::table(self, &mut bytes).ok().filter(|()| self.is_csv)?;
+        String::from_utf8(bytes).ok()
+    }
+
+    fn object(&self) -> impl Serialize {
+        object::object(self)
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+}

@@ -1,0 +1,228 @@
+//! Cushion curves in words.
+
+use dashpot_analysis::measures::STANDARD_GRAVITY;
+use dashpot_design::cushion::{
+    Assumed, Best, Curve, CushionPoint, Known, Passing, Place, Reach, Thinnest, Unmet,
+};
+use dashpot_plot::Table;
+use dashpot_units::percent;
+
+use super::{Drawn, beside};
+use crate::{
+    numbers::{Unit, counted, digits, quantity, rounded},
+    output::list,
+    verbs::run::Line,
+};
+
+/// Digits of a number that is read in passing, and of one that is an answer.
+const FEW: usize = 3;
+const DIGITS: usize = 4;
+/// Digits of a peak, whatever its error.
+const MOST_DIGITS: usize = 5;
+/// What stands where there is nothing.
+const NONE: &str = "–";
+
+/// Peaks are read in g, stresses in kPa.
+pub(super) fn in_g() -> Unit {
+    Unit::new("g", STANDARD_GRAVITY)
+}
+
+pub(super) fn in_kpa() -> Unit {
+    Unit::new("kPa", 1e3)
+}
+
+pub(super) fn length(value: f64) -> String {
+    rounded(value, "m", DIGITS)
+}
+
+/// `parcel falls on cushion of 133.3 cm², whose static stress is …`.
+pub(super) fn asked(drawn: &Drawn) -> String {
+    let own = &drawn.cushion.platen;
+    let area = Unit::new("cm²", 1e-4).text(own.area, DIGITS);
+    let masses = drawn.cushion.curves.first().map(|curve| {
+        let mass = |at: usize| curve.points[at].stress * own.area / own.gravity;
+        let [low, high] = [mass(0), mass(curve.points.len() - 1)];
+        format!(", with {} to {}", quantity(low, "kg", FEW), quantity(high, "kg", FEW))
+    });
+    format!("{} falls flat on {area} of {}{}", own.body, own.pad, masses.unwrap_or_default())
+}
+
+/// What was found, before the table.
+pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
+    let mut lines = Vec::new();
+    let mut add = |label, text: String| lines.push(Line { label, text });
+    for own in &drawn.cushion.platen.assumed {
+        let text = match own {
+            Assumed::Gravity => "gravity acts with 1 g, of which the scene says nothing",
+            Assumed::Separation => {
+                "the platen may leave the cushion, of which the scene says nothing"
+            }
+        };
+        add("assumed", text.to_owned());
+    }
+    for own in &drawn.cushion.thinnest {
+        for (label, text) in thinnest(drawn, own) {
+            add(label, text);
+        }
+    }
+    if lines.is_empty() {
+        let least = drawn.cushion.curves.iter().filter_map(|own| Some((own, own.best?)));
+        let least = least.min_by(|one, other| one.1.point.peak.total_cmp(&other.1.point.peak));
+        if let Some((curve, best)) = least {
+            lines.push(Line {
+                label: "least peak",
+                text: format!(
+                    "{} from {} on {} at {}",
+                    in_g().text(best.point.peak, DIGITS),
+                    length(curve.height),
+                    length(curve.thickness),
+                    in_kpa().text(best.point.stress, DIGITS)
+                ),
+            });
+        }
+    }
+    lines.extend(drawn.cushion.stress_energy.as_ref().map(beside::stress_energy));
+    lines.extend(drawn.cushion.creep.iter().find_map(beside::slowest));
+    lines
+}
+
+fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
+    let asked = &drawn.wanted.asked;
+    let limit = asked.limit.map_or(String::new(), |own| in_g().text(own, FEW));
+    let over = asked.over.unwrap_or_default();
+    let over = format!("{} to {}", in_kpa().number(over[0], FEW), in_kpa().text(over[1], FEW));
+    let height = length(own.height);
+    let first = match own.over_all {
+        Ok([thickness, peak, stress]) => {
+            let first =
+                if own.is_first { "; it is the thinnest one that was asked for" } else { "" };
+            let text = format!(
+                "{} keep {limit} from {height} over {over}: at most {} at {}{first}",
+                length(thickness),
+                in_g().text(peak, DIGITS),
+                in_kpa().text(stress, FEW),
+            );
+            ("thinnest", text)
+        }
+        Err(why) => {
+            let why = match why {
+                Unmet::Peak(peak, stress) => {
+                    format!("has {} at {}", in_g().text(peak, DIGITS), in_kpa().text(stress, FEW))
+                }
+                Unmet::Known(stress) => {
+                    format!(
+                        "is pressed beyond what is known of it at {}",
+                        in_kpa().text(stress, FEW)
+                    )
+                }
+            };
+            let thickest = asked.thicknesses.last().map_or(String::new(), |own| length(*own));
+            ("NONE", format!("nothing keeps {limit} from {height} over {over}: {thickest} {why}"))
+        }
+    };
+    let lightest = own.lightest.map(|[volume, thickness, stress]| {
+        let text = format!(
+            "{} at {} take the least for {limit} from {height}: {} for each kg",
+            length(thickness),
+            in_kpa().text(stress, FEW),
+            Unit::new("cm³", 1e-6).text(volume * drawn.cushion.platen.gravity, FEW),
+        );
+        ("lightest", text)
+    });
+    [first].into_iter().chain(lightest).collect()
+}
+
+/// The best stress of each curve, its peak, its floor and what keeps the limit.
+pub(super) fn table(drawn: &Drawn) -> Table {
+    let limit = drawn.wanted.asked.limit;
+    let has_floor = drawn.cushion.curves.iter().any(|own| own.floor.is_some());
+    let mut header = list(
+        ["height\nmm", "thickness\nmm", "best stress\nkPa", "peak\ng", "±\n%", "strain\n%"]
+            .map(str::to_owned),
+    );
+    header.extend(has_floor.then(|| "floor\ng".to_owned()));
+    header.extend(limit.map(|own| format!("at most {}\nkPa", in_g().text(own, FEW))));
+    let row = |own: &Curve| {
+        let mm = |value: f64| rounded(value * 1e3, "1", DIGITS);
+        let best = own.best.map_or([NONE; 4].map(str::to_owned), |own| of_best(&own));
+        let floor = own.floor.map_or(NONE.to_owned(), |own| in_g().number(own, FEW));
+        let passing = limit.map(|_| own.passing.map_or(NONE.to_owned(), passing));
+        let first = [mm(own.height), mm(own.thickness)].into_iter();
+        list(first.chain(best).chain(has_floor.then_some(floor)).chain(passing))
+    };
+    let rows = list(drawn.cushion.curves.iter().map(row));
+    Table { caption: "The best static stress of each curve".to_owned(), header, rows }
+}
+
+fn of_best(Best { point, place }: &Best) -> [String; 4] {
+    let CushionPoint { stress, peak, error, strain, .. } = *point;
+    let mark = match place {
+        Place::Within => "",
+        Place::Low => "≤ ",
+        Place::High => "≥ ",
+        Place::EndOfKnown => "→ ",
+    };
+    let known = Some(error).filter(|own| own.is_finite());
+    let peak_text = in_g().number(peak, digits(peak, known, MOST_DIGITS));
+    let error = known.map_or(NONE.to_owned(), |own| crate::numbers::bound(own / peak));
+    [
+        format!("{mark}{}", in_kpa().number(stress, FEW)),
+        peak_text,
+        error.trim_end_matches(" %").to_owned(),
+        percent(strain, FEW).trim_end_matches(" %").to_owned(),
+    ]
+}
+
+fn passing(Passing { stress, ends }: Passing) -> String {
+    let [low, high] = stress.map(|own| in_kpa().number(own, FEW));
+    let [before, behind] = ends.map(|own| match own {
+        Reach::Limit => "",
+        Reach::Range => "…",
+        Reach::Known => "!",
+    });
+    format!("{before}{low}–{high}{behind}")
+}
+
+/// What is to be known of the curves, below the table.
+pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
+    let curves = &drawn.cushion.curves;
+    let points = || curves.iter().flat_map(|own| &own.points);
+    let all = points().count();
+    let count = |known: Known| points().filter(|own| own.known == known).count();
+    let pad = &drawn.cushion.platen.pad;
+    let told = [
+        (Known::OnStop, format!("meet the stop of {pad}")),
+        (Known::BeyondLaw, format!("press {pad} beyond the last point of its law")),
+        (Known::PressedThrough, format!("press {pad} by more than its thickness")),
+        (Known::Unsolved, "could not be solved".to_owned()),
+    ];
+    let told = told.into_iter().map(|(known, text)| (count(known), text));
+    let told = told.filter(|own| own.0 > 0);
+    let mut notes: Vec<String> =
+        list(told.map(|(own, text)| format!("{own} of {} {text}", counted(all, "drop"))));
+    let has =
+        |place: Place| curves.iter().any(|own| own.best.is_some_and(|own| own.place == place));
+    if has(Place::EndOfKnown) {
+        notes.push(format!("→ the peak falls until what is known of {pad} ends"));
+    }
+    if has(Place::Low) || has(Place::High) {
+        notes.push("≤, ≥ the least peak may lie beyond the end of the range".to_owned());
+    }
+    let ends = |reach: Reach| {
+        curves.iter().filter_map(|own| own.passing).any(|own| own.ends.contains(&reach))
+    };
+    if ends(Reach::Range) {
+        notes.push("… the range of stresses ends there, not what keeps the limit".to_owned());
+    }
+    if ends(Reach::Known) {
+        notes.push(format!("! what is known of {pad} ends there, before the limit"));
+    }
+    let work = drawn.cushion.work;
+    notes.push(format!(
+        "{} solved, {} of them in full; {} between them",
+        counted(work.points, "drop"),
+        work.points - work.instantiated,
+        counted(work.probes, "further one")
+    ));
+    notes
+}

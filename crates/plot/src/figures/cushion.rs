@@ -1,0 +1,243 @@
+//! Cushion curves: peak acceleration over static stress, one curve for each thickness.
+
+use crate::{Chart, Direction, Marker, Pattern, ReferenceLine, Scale, Series, Stroke};
+
+/// A figure shows peaks up to so many times the largest of the best ones, the limit and the floors.
+const ROOM: f64 = 2.5;
+
+/// The curves of one height, in the units of their axes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CushionSeries {
+    /// Heading, as in `Drops from 760 mm`.
+    pub title: String,
+    /// A remark below; empty for none.
+    pub note: String,
+    /// The curves, from the thinnest cushion to the thickest one.
+    pub curves: Vec<CushionCurve>,
+    /// The most that a peak may be \[g\].
+    pub limit: Option<f64>,
+}
+
+/// The curve of one thickness.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CushionCurve {
+    /// Name, as in `60 mm`.
+    pub name: String,
+    /// Static stress \[kPa\], rising, peak \[g\], and how well it is known; what is not finite is a gap.
+    pub points: Vec<(f64, f64, CushionMark)>,
+    /// What no cushion of this thickness can beat \[g\].
+    pub floor: Option<f64>,
+    /// The stress \[kPa\] of the least peak \[g\].
+    pub best: Option<(f64, f64)>,
+    /// Static stress \[kPa\] and mean peak \[g\] of the drops that follow the first one in a row; empty for none.
+    pub later: Vec<(f64, f64)>,
+}
+
+/// How well a point of a cushion curve is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CushionMark {
+    /// Wholly.
+    #[default]
+    Known,
+    /// The cushion meets its stop there.
+    OnStop,
+    /// The cushion is pressed beyond what is known of it.
+    Beyond,
+}
+
+impl CushionMark {
+    fn pattern(self) -> Pattern {
+        match self {
+            Self::Known => Pattern::Solid,
+            Self::OnStop => Pattern::Dashed,
+            Self::Beyond => Pattern::Dotted,
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Known => "",
+            Self::OnStop => "dashed: on the stop",
+            Self::Beyond => "dotted: beyond what is known",
+        }
+    }
+}
+
+impl CushionSeries {
+    /// The chart: the stress on a logarithmic axis, the limit across, the floor of each thickness as a thin line, and
+    /// the best point of each curve marked.
+    pub fn chart(&self) -> Chart {
+        let top = self.top();
+        let mut series: Vec<Series> = Vec::new();
+        for (colour, curve) in self.curves.iter().enumerate() {
+            series.extend(curve.parts(colour, top));
+        }
+        series.extend(
+            self.curves.iter().enumerate().filter_map(|(colour, own)| own.later(colour, top)),
+        );
+        let floors = self.curves.iter().enumerate().filter_map(|(colour, own)| {
+            let ends = [own.points.first()?.0, own.points.last()?.0];
+            let floor = own.floor.filter(|own| *own <= top)?;
+            let stroke = Some(Stroke { colour, pattern: Pattern::DashDotted });
+            let points = ends.map(|x| (x, floor)).to_vec();
+            Some(Series { name: String::new(), points, stroke })
+        });
+        let floors: Vec<Series> = floors.collect();
+        let mut notes = vec![self.note.clone()];
+        for mark in [CushionMark::OnStop, CushionMark::Beyond] {
+            notes.extend(self.has(mark).then(|| mark.words().to_owned()));
+        }
+        notes.extend(
+            (!floors.is_empty()).then(|| "dash-dotted: no cushion can do better".to_owned()),
+        );
+        let has_rows = self.curves.iter().any(|own| !own.later.is_empty());
+        notes.extend(has_rows.then(|| "pale: mean of the drops that follow in a row".to_owned()));
+        notes.retain(|own| !own.is_empty());
+        let markers = self.curves.iter().filter_map(|own| own.best).filter(|own| own.1 <= top);
+        let markers = markers.map(|(x, y)| Marker { x, y, label: format!("{} g", rounded(y)) });
+        let limit = self.limit.map(|at| ReferenceLine {
+            direction: Direction::Horizontal,
+            at,
+            label: format!("limit {} g", rounded(at)),
+            colour: None,
+        });
+        series.extend(floors);
+        Chart {
+            title: self.title.clone(),
+            note: notes.join("; "),
+            x_label: "static stress (kPa)".into(),
+            y_label: "peak acceleration (g)".into(),
+            x_scale: Scale::logarithmic(""),
+            family: series.len(),
+            series,
+            markers: markers.collect(),
+            lines: limit.into_iter().collect(),
+            ..Chart::default()
+        }
+    }
+
+    fn has(&self, mark: CushionMark) -> bool {
+        self.curves
+            .iter()
+            .any(|own| own.points.iter().any(|own| own.2 == mark && own.1.is_finite()))
+    }
+
+    /// The largest peak that is shown.
+    fn top(&self) -> f64 {
+        let bests = self.curves.iter().filter_map(|own| own.best).map(|own| own.1);
+        let floors = self.curves.iter().filter_map(|own| own.floor);
+        let largest = bests.chain(floors).chain(self.limit).fold(0.0, f64::max);
+        if largest > 0.0 { ROOM * largest } else { f64::INFINITY }
+    }
+}
+
+impl CushionCurve {
+    /// The drops that follow the first one.
+    fn later(&self, colour: usize, top: f64) -> Option<Series> {
+        let gap = |own: (f64, f64)| if own.1 <= top { own } else { (own.0, f64::NAN) };
+        let points: Vec<(f64, f64)> = self.later.iter().copied().map(gap).collect();
+        let stroke = Some(Stroke { colour, pattern: Pattern::Broad });
+        let has_any = points.iter().any(|own| own.1.is_finite());
+        has_any.then(|| Series { name: String::new(), points, stroke })
+    }
+
+    /// The parts of the curve that are known equally well; the last one that is drawn has the name.
+    fn parts(&self, colour: usize, top: f64) -> Vec<Series> {
+        let mut parts = Vec::new();
+        for mark in [CushionMark::Known, CushionMark::OnStop, CushionMark::Beyond] {
+            let mut points = Vec::new();
+            for pair in self.points.windows(2) {
+                // A part reaches to the last point that is known better.
+                let worst = if rank(pair[0].2) > rank(pair[1].2) { pair[0].2 } else { pair[1].2 };
+                let ends = cut([(pair[0].0, pair[0].1), (pair[1].0, pair[1].1)], top);
+                match ends.filter(|_| worst == mark) {
+                    Some(ends) if points.last() == Some(&ends[0]) => points.push(ends[1]),
+                    Some(ends) if points.is_empty() => points.extend(ends),
+                    Some(ends) => points.extend([(ends[0].0, f64::NAN), ends[0], ends[1]]),
+                    None => {}
+                }
+            }
+            if !points.is_empty() {
+                let stroke = Some(Stroke { colour, pattern: mark.pattern() });
+                parts.push(Series { name: String::new(), points, stroke });
+            }
+        }
+        if let Some(first) = parts.first_mut() {
+            first.name.clone_from(&self.name);
+        }
+        parts
+    }
+}
+
+fn rank(mark: CushionMark) -> u8 {
+    match mark {
+        CushionMark::Known => 0,
+        CushionMark::OnStop => 1,
+        CushionMark::Beyond => 2,
+    }
+}
+
+/// What of a piece of a curve lies below the top; the horizontal axis is logarithmic.
+fn cut([a, b]: [(f64, f64); 2], top: f64) -> Option<[(f64, f64); 2]> {
+    if !(a.1.is_finite() && b.1.is_finite()) || (a.1 > top && b.1 > top) {
+        return None;
+    }
+    let crossing = || {
+        let part = (top - a.1) / (b.1 - a.1);
+        (a.0 * (b.0 / a.0).powf(part), top)
+    };
+    Some([if a.1 > top { crossing() } else { a }, if b.1 > top { crossing() } else { b }])
+}
+
+/// To three digits.
+fn rounded(value: f64) -> f64 {
+    let power = 10.0_f64.powf(2.0 - value.abs().log10().floor());
+    if power.is_finite() && power > 0.0 { (value * power).round() / power } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series() -> CushionSeries {
+        let marks =
+            [CushionMark::Known, CushionMark::Known, CushionMark::OnStop, CushionMark::Beyond];
+        let points = [(1.0, 400.0), (2.0, 40.0), (4.0, 60.0), (8.0, 90.0)];
+        let points = points.into_iter().zip(marks).map(|((x, y), mark)| (x, y, mark)).collect();
+        let name = "60 mm".to_owned();
+        let curve = CushionCurve {
+            name,
+            points,
+            floor: Some(20.0),
+            best: Some((2.0, 40.0)),
+            later: Vec::new(),
+        };
+        CushionSeries {
+            title: "Drops".into(),
+            curves: vec![curve],
+            limit: Some(50.0),
+            ..CushionSeries::default()
+        }
+    }
+
+    #[test]
+    fn a_curve_is_drawn_by_how_well_it_is_known_and_up_to_the_top() {
+        let chart = series().chart();
+        let patterns: Vec<Pattern> =
+            chart.series.iter().map(|own| own.stroke.unwrap().pattern).collect();
+        assert_eq!(
+            patterns,
+            [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted]
+        );
+        // The top is 125 g: 2^(275/360) kPa.
+        let first = chart.series[0].points[0];
+        assert!((first.0 - 2.0_f64.powf(275.0 / 360.0)).abs() < 1e-12, "{first:?}");
+        assert_eq!(first.1.to_bits(), 125.0_f64.to_bits());
+        assert_eq!(chart.series[1].points, [(2.0, 40.0), (4.0, 60.0)]);
+        assert!(chart.series.iter().all(|own| own.stroke.unwrap().colour == 0));
+        let svg = chart.svg().unwrap();
+        for text in ["static stress (kPa)", "limit 50 g", "40 g", "dashed: on the stop"] {
+            assert!(svg.contains(text), "{text}");
+        }
+    }
+}

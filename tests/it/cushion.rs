@@ -1,0 +1,201 @@
+//! Cushion curves: what the command prints and writes, its closed forms, and the stress–energy method.
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run, text};
+
+const G0: f64 = 9.80665;
+
+/// A parcel on a cushion of this material; `{}` of the rest of its effects.
+fn scene(material: &str, effects: &str) -> String {
+    format!(
+        "[materials]\nfoam = {material}\n\n[nodes]\nparcel = {{ mass = \"8 kg\", drop = \"60 cm\" }}\n\n[elements]\n\
+         cushion = {{ between = [\"parcel\", \"ground\"], material = \"foam\", thickness = \"5 cm\", area = \"400 cm^2\" \
+         }}\n\n[effects]\ngravity = {{}}\nseparation.cushion = {{}}\n{effects}\n[run]\nduration = \"0.6 s\"\n"
+    )
+}
+
+/// The foam of the chapter on cushions, which knows no rate, and a dashpot beside it.
+fn foam(folder: &TempDir, damping: &str) -> String {
+    let table = folder.path().join("foam.csv");
+    std::fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/data/cushion-foam.csv"), &table)
+        .unwrap();
+    let table = "{ table-spring = \"foam.csv\" }".to_owned();
+    if damping.is_empty() {
+        table
+    } else {
+        format!("{{ parallel = [{table}, {{ dashpot = \"{damping}\" }}] }}")
+    }
+}
+
+const ALL: [&str; 6] =
+    ["--heights", "30,60,90 cm", "--thickness", "2..10 cm,5", "--stress", "1..20 kPa,40,log"];
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|own| own.as_f64().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn the_curve_of_a_linear_cushion_is_its_closed_form_in_the_command_too() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "linear.toml", &scene("{ spring = \"0.4 MPa\" }", ""));
+    let own = json(&[&["cushion", text(&path), "--json"], &ALL[..]].concat());
+    let curves = own["curves"].as_array().unwrap();
+    assert_eq!(curves.len(), 15);
+    for curve in curves {
+        let [height, thickness] = ["height", "thickness"].map(|own| curve[own].as_f64().unwrap());
+        let [stress, peak] = ["stress", "peak"].map(|own| numbers(&curve[own]));
+        assert_eq!(stress.len(), 40);
+        for (stress, peak) in stress.iter().zip(&peak) {
+            let right = 1.0 + (1.0 + 2.0 * 4e5 * height / (stress * thickness)).sqrt();
+            assert!((peak / (right * G0) - 1.0).abs() < 1e-10, "{height} {thickness} {stress}");
+        }
+        let floor = curve["floor"].as_f64().unwrap();
+        assert!((floor / (G0 * (1.0 + height / thickness)) - 1.0).abs() < 1e-9);
+    }
+    // All are instantiated.
+    assert_eq!((&own["work"]["points"], &own["work"]["instantiated"]), (&600.into(), &600.into()));
+    // At most two searches for each curve, one of which halves.
+    assert!(own["work"]["probes"].as_u64().unwrap() <= 15 * 50, "{}", own["work"]);
+}
+
+#[test]
+fn a_stop_that_is_not_met_changes_nothing() {
+    let folder = TempDir::new().unwrap();
+    let stop = "stop.cushion = { at = \"3.5 cm\", stiffness = \"2 MN/m\" }\n";
+    let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), stop));
+    let ranges = ["--heights", "60 cm", "--stress", "1..20 kPa,40,log"];
+    let own = json(&[&["cushion", text(&path), "--json"], &ranges[..]].concat());
+    let curve = &own["curves"][0];
+    let known: Vec<&str> =
+        curve["known"].as_array().unwrap().iter().map(|own| own.as_str().unwrap()).collect();
+    let strains = numbers(&curve["strain"]);
+    for (known, strain) in known.iter().zip(&strains) {
+        assert_eq!(*known != "whole", *strain > 0.7, "{known} {strain}");
+    }
+    let met = known.iter().filter(|own| **own != "whole").count();
+    assert!((5..35).contains(&met), "{met}");
+    let instantiated = own["work"]["instantiated"].as_u64().unwrap();
+    assert!(instantiated > 0 && instantiated <= 40 - met as u64, "{instantiated} {met}");
+    // Each point is what a run of that scene says.
+    let [stress, peak, error] = ["stress", "peak", "error"].map(|own| numbers(&curve[own]));
+    for at in [5, 30] {
+        let mass = format!("parcel.mass={} kg", stress[at] * 0.04 / G0);
+        let one = json(&["run", text(&path), "--set", &mass, "--json"]);
+        let right = &one["runs"][0]["measures"]["parcel.peak-acceleration"];
+        let bar = error[at] + right["error"].as_f64().unwrap();
+        let right = right["value"].as_f64().unwrap();
+        assert!((peak[at] - right).abs() <= bar.max(1e-9 * right), "{at}: {} {right}", peak[at]);
+    }
+}
+
+#[test]
+fn curves_are_one_under_stress_energy_where_nothing_depends_on_the_rate() {
+    let folder = TempDir::new().unwrap();
+    for (damping, range, holds) in
+        [("", 0.0..0.08, true), ("0.4 kPa s", 0.22..0.32, false), ("2 kPa s", 0.22..0.33, false)]
+    {
+        let path = file(&folder, "foam.toml", &scene(&foam(&folder, damping), ""));
+        let ranges = ["--heights", "30,60,90 cm", "--thickness", "2..6 cm,5"];
+        let stress = ["--stress", "1..20 kPa,40,log"];
+        let own = json(&[&["cushion", text(&path), "--json"], &ranges[..], &stress].concat());
+        let found = &own["stress_energy"];
+        let scatter = found["scatter"].as_f64().unwrap();
+        println!("{damping:>10}: {found}");
+        assert!(range.contains(&scatter), "{damping}: {scatter}");
+        assert_eq!(found["collapse"] != "fails", holds, "{damping}: {found}");
+    }
+}
+
+#[test]
+fn the_thinnest_cushion_keeps_the_limit_and_a_thinner_one_does_not() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), ""));
+    let path = text(&path);
+    let asked = ["--heights", "76 cm", "--thickness", "2..14 cm,5", "--limit", "50 g"];
+    let over = ["--over", "4..9 kPa"];
+    let own = json(&[&["cushion", path, "--json"], &asked[..], &over].concat());
+    let thinnest = own["thinnest"][0]["thickness"].as_f64().unwrap();
+    let keeps = |thickness: f64| {
+        let thickness = format!("{thickness} m");
+        let own = ["--heights", "76 cm", "--thickness", &thickness, "--stress", "4..9 kPa,25"];
+        let own = json(&[&["cushion", path, "--json"], &own[..]].concat());
+        let curve = &own["curves"][0];
+        let known = curve["known"].as_array().unwrap().iter().all(|own| *own == "whole");
+        known && numbers(&curve["peak"]).iter().all(|own| *own <= 50.0 * G0 * (1.0 + 1e-3))
+    };
+    assert!(keeps(thinnest) && !keeps(0.99 * thinnest), "{thinnest}");
+    let lightest = &own["thinnest"][0]["lightest"];
+    let [volume, of, stress] =
+        ["volume_per_weight", "thickness", "stress"].map(|own| lightest[own].as_f64().unwrap());
+    assert!((volume * stress / of - 1.0).abs() < 1e-12 && volume <= thinnest / 4e3);
+}
+
+#[test]
+fn a_folder_has_a_figure_for_each_height_and_the_text_says_what_is_not_known() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), ""));
+    let curves = folder.path().join("curves");
+    let asked = ["--heights", "30,60 cm", "--thickness", "3,6 cm", "--limit", "60 g"];
+    let output = run(&[&["cushion", text(&path), "--out", text(&curves)], &asked[..]].concat());
+    println!("{}{}", out(&output), err(&output));
+    assert_eq!(code(&output), 0);
+    assert!(out(&output).lines().all(|line| line.chars().count() <= 80));
+    for name in
+        ["cushion-300mm.svg", "cushion-600mm.svg", "cushion.csv", "report.html", "result.json"]
+    {
+        assert!(curves.join(name).is_file(), "{name}");
+    }
+    let svg = std::fs::read_to_string(curves.join("cushion-600mm.svg")).unwrap();
+    assert!(svg.contains("static stress (kPa)") && svg.contains("limit 60 g"));
+    let table = run(&[&["cushion", text(&path), "--csv"], &asked[..]].concat());
+    assert!(out(&table).starts_with("height [m],thickness [m],static stress [Pa]"));
+    assert_eq!(out(&table).lines().count(), 1 + 4 * 40);
+}
+
+#[test]
+fn what_is_no_cushion_test_says_what_to_write() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "foam.toml", &scene("{ spring = \"0.4 MPa\" }", ""));
+    let path = text(&path);
+    for (arguments, told) in [
+        (vec!["--heights", "30 kPa"], "length"),
+        (vec!["--stress", "5 cm"], "pressure"),
+        (vec!["--limit", "50 kg"], "m/s^2"),
+        (vec!["--over", "4..9 kPa"], "--limit"),
+        (vec!["--platen", "parcels"], "parcel"),
+        (vec!["--pad", "foam"], "cushion"),
+    ] {
+        let output = run(&[&["cushion", path][..], &arguments].concat());
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", out(&output));
+        assert!(err(&output).contains(told), "{arguments:?}: {}", err(&output));
+    }
+    let output = run(&["cushion", "reference"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("has no `area`"), "{}", err(&output));
+}
+
+#[test]
+fn drops_in_a_row_and_creep_are_told_beside_the_curves() {
+    let folder = TempDir::new().unwrap();
+    let material = "{ parallel = [{ spring = \"0.2 MPa\" }, { maxwell = { spring = \"0.1 MPa\", dashpot = \"1 MPa s\" } }] }";
+    let path = file(&folder, "creeping.toml", &scene(material, ""));
+    let asked = ["--stress", "2,4 kPa", "--drops", "3", "--between", "10 s", "--creep", "1 s,1 h"];
+    let own = json(&[&["cushion", text(&path), "--json"], &asked[..]].concat());
+    let drops = own["curves"][0]["drops"].as_array().unwrap();
+    for (row, peak) in drops.iter().zip(numbers(&own["curves"][0]["peak"])) {
+        let peaks = numbers(&row["peak"]);
+        assert!(peaks.len() == 3 && (peaks[0] / peak - 1.0).abs() < 1e-3, "{peaks:?} {peak}");
+    }
+    // ε = σ (1/E − E1/(E (E + E1)) e^(−t/λ)) with λ = η (1/E + 1/E1) = 15 s.
+    for creep in own["creep"].as_array().unwrap() {
+        let stress = creep["stress"].as_f64().unwrap();
+        for crept in creep["crept"].as_array().unwrap() {
+            let [time, strain] = ["time", "strain"].map(|own| crept[own].as_f64().unwrap());
+            let right = stress * (5e-6 - 1e5 / (2e5 * 3e5) * (-time / 15.0).exp());
+            assert!((strain / right - 1.0).abs() < 1e-6, "{time} {strain} {right}");
+            assert_eq!(crept["trust"] == "within", time < 15.0);
+        }
+    }
+}
