@@ -79,7 +79,7 @@ const ZERO: [(i32, &str); 4] = [
     (0, "nothing was measured"),
     (2, "other than zero"),
     (2, "zero throughout"),
-    (0, "no figure has a size"),
+    (0, "every value of the record is zero"),
 ];
 const NAN: [(i32, &str); 4] =
     [(2, "line 202"), (2, "line 202"), (2, "line 202"), (2, "own.csv:202")];

@@ -36,6 +36,7 @@ mod examples;
 mod files;
 mod fit;
 mod fit_folders;
+mod fit_mistakes;
 mod fit_mixed;
 mod floors;
 mod formulas;

@@ -329,8 +329,10 @@ fn table_for_scene(text: &str, name: &str) -> Option<Fault> {
 fn astray_fault(name: String, fault: TunableFault) -> Fault {
     match fault {
         TunableFault::Ambiguous { names, .. } => Fault::AmbiguousPath { name, names },
-        TunableFault::Unknown { known, .. } => {
-            Fault::UnknownName { family: "number or word", name, known }
+        TunableFault::Unknown { ref known, is_left_out, .. } => {
+            let help = if is_left_out { fault.help() } else { None };
+            let known = known.clone();
+            Fault::UnknownName { family: "number or word", name, known }.with_any_help(help)
         }
         TunableFault::NoUnit(bare) => Fault::BareNumber(bare),
         _ => Fault::UnknownName { family: "number or word", name, known: Vec::new() },

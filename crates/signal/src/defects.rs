@@ -86,8 +86,29 @@ impl Defect {
 
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = |value: f64, unit: Dimension| shown(value, unit);
-        let ms = |time: f64| quantity(time, "s", DIGITS);
+        match self {
+            Self::Flat { .. }
+            | Self::Offset { .. }
+            | Self::Drift { .. }
+            | Self::Clipped { .. }
+            | Self::Coarse { .. }
+            | Self::OddPeak { .. } => self.of_values(f),
+            Self::Held { .. }
+            | Self::Dropped { .. }
+            | Self::Spikes { .. }
+            | Self::UnevenSteps { .. }
+            | Self::FewSamples { .. }
+            | Self::Cut
+            | Self::SlowForClass { .. }
+            | Self::OddClass { .. }
+            | Self::OddLength { .. } => self.of_times(f),
+        }
+    }
+}
+
+impl Defect {
+    /// What is wrong with values.
+    fn of_values(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let percent = |share: f64| dashpot_units::percent(share, 2);
         match *self {
             Self::Flat { value, unit } => {
@@ -110,8 +131,27 @@ impl fmt::Display for Defect {
                 f,
                 "is clipped at {}: {samples} equal samples at its largest value, from {} on; the peak was higher",
                 shown(level, unit),
-                ms(time)
+                quantity(time, "s", DIGITS)
             ),
+            Self::Coarse { step, share, unit } => write!(
+                f,
+                "its values come in steps of {}, {} of the peak",
+                shown(step, unit),
+                percent(share)
+            ),
+            Self::OddPeak { peak } => write!(
+                f,
+                "a peak of {} is none of an impact: is the unit right?",
+                shown(peak, Dimension::ACCELERATION)
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// What is wrong with times and their samples.
+    fn of_times(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ms = |time: f64| quantity(time, "s", DIGITS);
+        match *self {
             Self::Held { samples, time } => write!(
                 f,
                 "holds one value for {samples} samples within the pulse, from {} on: samples were dropped",
@@ -137,21 +177,12 @@ impl fmt::Display for Defect {
                 ms(range.0),
                 ms(range.1)
             ),
-            Self::Coarse { step, share, unit } => write!(
-                f,
-                "its values come in steps of {}, {} of the peak",
-                shown(step, unit),
-                percent(share)
-            ),
             Self::FewSamples { samples } => {
                 write!(f, "its pulse has {samples} samples: the sampling rate is too low")
             }
-            Self::Cut => {
-                write!(
-                    f,
-                    "the record begins or ends within the pulse: its numbers are those of a part"
-                )
-            }
+            Self::Cut => f.write_str(
+                "the record begins or ends within the pulse: its numbers are those of a part",
+            ),
             Self::SlowForClass { rate, class, least } => write!(
                 f,
                 "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
@@ -161,18 +192,12 @@ impl fmt::Display for Defect {
             Self::OddClass { class } => {
                 write!(f, "CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")
             }
-            Self::OddPeak { peak } => write!(
+            Self::OddLength { length } => write!(
                 f,
-                "a peak of {} is none of an impact: is the unit right?",
-                shown(peak, Dimension::ACCELERATION)
+                "a pulse of {} is none of an impact: is the unit of time right?",
+                ms(length)
             ),
-            Self::OddLength { length } => {
-                write!(
-                    f,
-                    "a pulse of {} is none of an impact: is the unit of time right?",
-                    ms(length)
-                )
-            }
+            _ => Ok(()),
         }
     }
 }

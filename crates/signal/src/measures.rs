@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{
     Counted,
-    measures::{Exceedance, STANDARD_GRAVITY},
+    measures::{Exceedance, STANDARD_GRAVITY, hic_search::optimum},
 };
 use dashpot_units::Dimension;
 
@@ -12,6 +12,8 @@ use crate::{Approach, Channel, Contact, Motion, hic, sampling::Sampling};
 const CLIP: f64 = 0.003;
 /// The exponent of the severity index.
 const EXPONENT: f64 = 2.5;
+/// Rounding of a criterion, in parts of it.
+const ROUNDING: f64 = 1e-9;
 
 /// What is read off a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -225,7 +227,8 @@ impl<'c> Reader<'c> {
     }
 
     fn hic(&self, measure: Measure) -> Reading {
-        let found = hic::best(self.channel, STANDARD_GRAVITY, measure.cap());
+        let cap = measure.cap();
+        let found = optimum(&self.channel.signal(STANDARD_GRAVITY), self.channel.span(), cap);
         let (from, to) = found.interval;
         let length = to - from;
         if length <= 0.0 {
@@ -235,9 +238,10 @@ impl<'c> Reader<'c> {
         let mean = (found.value / length).powf(0.4);
         // The true signal may have the larger mean, and with it the steeper criterion.
         let growth = EXPONENT * (mean + hidden / STANDARD_GRAVITY / length).powf(1.5);
-        let error = growth * hidden / STANDARD_GRAVITY + 1e-9 * found.value;
+        let error = growth * hidden / STANDARD_GRAVITY + found.threshold + ROUNDING * found.value;
         let reading = Reading::new(measure, found.value, error).over(found.interval);
-        Reading { on_samples: Some(found.on_samples), ..reading }
+        let on_samples = hic::on_samples(self.channel, cap, found.interval);
+        Reading { on_samples: Some(on_samples), ..reading }
     }
 
     fn severity(&self) -> Reading {

@@ -15,7 +15,7 @@ macro_rules! windowed {
 }
 
 pub(crate) mod exceedance;
-pub(crate) mod hic_search;
+pub mod hic_search;
 pub(crate) mod selection;
 
 mod contact;

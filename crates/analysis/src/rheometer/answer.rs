@@ -6,6 +6,7 @@ use dashpot_network::Model;
 use super::{
     Obstacle,
     history::History,
+    lines::Lines,
     simulation::{Control, Rig},
     solved::solve,
 };
@@ -37,14 +38,23 @@ pub enum Drive {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Answer {
-    signal: Signal,
+    course: Course,
     start: f64,
     length: f64,
 }
 
+/// How it is known.
+#[derive(Debug, Clone)]
+enum Course {
+    /// In closed form, from corner to corner of what was done.
+    Closed(Lines),
+    /// As a solution of the network.
+    Solved(Signal),
+}
+
 impl Answer {
     /// That to what was done, `(time, value)` with rising times \[s\]: zero before the first row, straight from row to
-    /// row. The tolerance is that of methods which have one.
+    /// row. That of a linear model is in closed form; the tolerance is that of the methods which others are solved by.
     ///
     /// # Errors
     ///
@@ -61,24 +71,40 @@ impl Answer {
             Drive::Force => Control::Force,
             Drive::Deformation => Control::Deformation,
         };
-        let rig = Rig::new(model, control, &history);
         let length = history.end();
+        if let Some(own) = Lines::of(model, control, &history) {
+            return Ok(Self { course: Course::Closed(own), start, length });
+        }
+        let rig = Rig::new(model, control, &history);
         let solved = solve(&rig, &Choice::Auto, (length, tolerance), Vec::new())?;
         let number = rig.outputs.first().and_then(|own| solved.assembly.output(own));
         let number = number.ok_or(Obstacle::Undetermined)?;
-        Ok(Self { signal: solved.solution().signal(number).clone(), start, length })
+        let course = Course::Solved(solved.solution().signal(number).clone());
+        Ok(Self { course, start, length })
     }
 
     /// The answer at a time \[s\] of the history: zero before its first row, the last one behind its last.
     pub fn value(&self, time: f64) -> f64 {
         let time = time - self.start;
-        if time < 0.0 { 0.0 } else { self.signal.value(time.min(self.length)) }
+        let within = time.min(self.length);
+        match &self.course {
+            _ if time < 0.0 => 0.0,
+            Course::Closed(own) => own.value(within),
+            Course::Solved(own) => own.value(within),
+        }
     }
 
     /// Time \[s\] and value, with its sign, where its magnitude is largest.
     pub fn peak(&self) -> (f64, f64) {
-        let peak = self.signal.absolute_maximum((0.0, self.length));
-        let sides = [self.signal.left_value(peak.time), self.signal.value(peak.time)];
+        let signal = match &self.course {
+            Course::Closed(own) => {
+                let (time, value) = own.peak();
+                return (time + self.start, value);
+            }
+            Course::Solved(own) => own,
+        };
+        let peak = signal.absolute_maximum((0.0, self.length));
+        let sides = [signal.left_value(peak.time), signal.value(peak.time)];
         let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
         (peak.time + self.start, peak.value.copysign(signed))
     }
@@ -115,6 +141,37 @@ mod tests {
         }
         assert!(own.value(0.05).abs() < f64::EPSILON);
         assert!((own.peak().0 - 0.11).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_closed_form_is_what_the_network_answers() {
+        let branch = |stiffness: f64, time: f64| {
+            Model::series([part(Spring { stiffness }), part(Dashpot { damping: stiffness * time })])
+        };
+        let model =
+            Model::parallel([part(Spring { stiffness: 2e4 }), branch(3e4, 0.02), branch(1e4, 0.7)]);
+        let rows = [(0.0, 1e-3), (0.011, 2e-3), (0.2, 2e-3), (0.22, 5e-4), (0.5, 9e-4)];
+        for (drive, unit) in [(Drive::Deformation, 1.0), (Drive::Force, 1e5)] {
+            let rows = rows.map(|own| (own.0, unit * own.1));
+            let own = Answer::to(&model, drive, &rows, 1e-9).unwrap();
+            assert!(matches!(own.course, Course::Closed(_)));
+            let history = History::through(rows.into_iter());
+            let control = match drive {
+                Drive::Force => Control::Force,
+                Drive::Deformation => Control::Deformation,
+            };
+            let rig = Rig::new(&model, control, &history);
+            let solved = solve(&rig, &Choice::Auto, (0.5, 1e-9), Vec::new()).unwrap();
+            let number = solved.assembly.output(&rig.outputs[0]).unwrap();
+            let signal = solved.solution().signal(number).clone();
+            let peak = signal.absolute_maximum((0.0, 0.5)).value;
+            assert!((own.peak().1.abs() / peak - 1.0).abs() < 1e-9, "{:?}", own.peak());
+            for at in 0..200 {
+                let time = 2.5e-3 * f64::from(at) + 1e-4;
+                let (one, other) = (own.value(time), signal.value(time));
+                assert!((one - other).abs() < 1e-9 * peak, "{time}: {one} and {other}");
+            }
+        }
     }
 
     #[test]

@@ -295,7 +295,7 @@ pub(super) fn force(form: &MaxwellForm, deformation: &History, at: Instant) -> f
 
 /// What the two end values of a line of the length `x` weigh at its end, in units of the decay:
 /// `x ∫₀¹ e^(−x(1−w)) (1−w) dw` and `x ∫₀¹ e^(−x(1−w)) w dw`.
-fn weights(x: f64) -> [f64; 2] {
+pub(super) fn weights(x: f64) -> [f64; 2] {
     if x < SHORT {
         let (mut term, mut first, mut last) = (0.5, 0.0, 0.0);
         for k in 0..TERMS {

@@ -22,6 +22,7 @@
 mod answer;
 mod cycle;
 mod history;
+mod lines;
 mod note;
 mod perturbation;
 mod protocols;

@@ -175,8 +175,8 @@ fn faults_are_told() {
 
 /// Rows of numbers of a file below the folder of measured data; `None`, with a word, where there is none.
 fn rows(path: &str) -> Option<Vec<Vec<f64>>> {
-    let Some(folder) = std::env::var_os("DASHPOT_DATA") else {
-        println!("skipped: DASHPOT_DATA names no folder of measured data");
+    let Some(folder) = std::env::var_os("DASHPOT_TEST_DATA") else {
+        println!("skipped: DASHPOT_TEST_DATA names no folder of measured data");
         return None;
     };
     let text = fs::read_to_string(Path::new(&folder).join(path)).unwrap();

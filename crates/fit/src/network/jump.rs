@@ -6,7 +6,11 @@
 //! takes part in the fit, in which no sample changes sides. Averaged over where in its step a blow falls, the estimate
 //! that is linear in these two has the covariance that is told, whatever the rest of the curve says of the clock.
 
-use super::{Curve, Kind, residuals::Task, sum};
+use super::{
+    Curve, Kind,
+    residuals::{Own, Task},
+    sum,
+};
 
 /// A curve jumps as it starts where that is more than this part of its peak.
 const JUMPS: f64 = 0.05;
@@ -14,6 +18,8 @@ const JUMPS: f64 = 0.05;
 const STEEPEST: usize = 4;
 /// A jump of less than so many standard deviations of a sample takes no part of its own.
 const FEWEST: f64 = 2.0;
+/// A rise within a step of the recorder that is as large in this many halvings of it is a jump.
+const HALVINGS: usize = 30;
 /// So many samples to either side are looked at.
 const LOOKED: usize = 4;
 
@@ -27,6 +33,15 @@ pub(super) struct Jump {
     /// Mean and standard deviation of its time \[s\].
     pub(super) mean: f64,
     pub(super) deviation: f64,
+}
+
+/// A jump of a curve behind its start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Later {
+    /// When on the clock of the record \[s\].
+    pub time: f64,
+    /// By how much, in the unit of the record.
+    pub height: f64,
 }
 
 impl Jump {
@@ -103,6 +118,36 @@ impl Task<'_> {
             }
         }
         self.jumps().next().is_some()
+    }
+
+    /// The largest jump of a curve behind its start, as where it is touched again: when it is on the clock of the record
+    /// \[s\], and its height. None of a test whose clock is right, or of one that is no blow.
+    pub(super) fn later_jump(&self, test: usize, curve: &dyn Curve, own: Own) -> Option<Later> {
+        self.places(test).shift.filter(|_| self.tests()[test].kind == Kind::Blow)?;
+        let record = self.record(test);
+        let least = (JUMPS * curve.peak().1.abs()).max(FEWEST * record.unit);
+        let rise = |ends: [f64; 2]| own.gain * (curve.value(ends[1]) - curve.value(ends[0]));
+        let late = record.recorder.times().iter().map(|time| time - own.shift);
+        let times: Vec<f64> = late.filter(|time| *time > record.step).collect();
+        let jump = |pair: &[f64]| {
+            let mut ends = [pair[0], pair[1]];
+            for _ in 0..HALVINGS {
+                if rise(ends).abs() < least {
+                    return None;
+                }
+                let middle = f64::midpoint(ends[0], ends[1]);
+                let halves = [[ends[0], middle], [middle, ends[1]]];
+                ends = if rise(halves[0]).abs() > rise(halves[1]).abs() {
+                    halves[0]
+                } else {
+                    halves[1]
+                };
+            }
+            let height = rise(ends);
+            (height.abs() >= least).then_some(Later { time: ends[1] + own.shift, height })
+        };
+        let all = times.windows(2).filter_map(jump);
+        all.max_by(|one, other| one.height.abs().total_cmp(&other.height.abs()))
     }
 
     /// The jump of a test by what its samples tell of it, each counted in their noise.

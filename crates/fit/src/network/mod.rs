@@ -23,6 +23,7 @@ use nalgebra::{DMatrix, DVector};
 pub use self::{
     bands::{Band, Read},
     certainty::{Interval, Source},
+    jump::Later,
     problem::{Curve, Kind, Known, Model, NetworkFault, NetworkSettings, Number, Profile, Test},
     repeats::Scatter,
     watch::{Phase, Search, Watch},
@@ -43,6 +44,8 @@ pub struct TestFit {
     pub known: Vec<f64>,
     /// By how much the model jumps as it starts, where that alone puts the clock between two samples.
     pub jump: Option<f64>,
+    /// Where the model jumps again, and its clock is as it would be without that.
+    pub later_jump: Option<Later>,
     /// Root of the mean square of what is left; of moduli in parts of them.
     pub rms: f64,
     /// How many independent rows it has: behind a filter fewer than samples.
@@ -260,8 +263,9 @@ fn search(
     let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / rows as f64);
     let is_low = |own: &Optimum| own.cost - found[0].cost <= noise + f64::MIN_POSITIVE;
     let distance = |own: &Optimum| {
-        let each = own.unknowns.iter().zip(&found[0].unknowns).take(numbers.len());
-        each.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+        let [one, other] = [own, &found[0]].map(|own| &own.unknowns[..numbers.len()]);
+        // Parts of a model that are alike may have changed places.
+        if is_low(own) { apart(&sorted(one), &sorted(other)) } else { apart(one, other) }
     };
     // Along what is not determined there are others anyhow.
     let is_apart = |own: &Optimum| certainty.undetermined.ncols() == 0 && distance(own) > APART;
@@ -292,6 +296,17 @@ fn search(
         fit.tests[test].band = bands.unwrap_or_default().into_iter().map(half).collect();
     }
     Ok(fit)
+}
+
+/// The largest difference of two sets of numbers.
+fn apart(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
+
+fn sorted(all: &[f64]) -> Vec<f64> {
+    let mut all = all.to_vec();
+    all.sort_by(f64::total_cmp);
+    all
 }
 
 /// The minimum of the robust sum beyond a scale, with the rows of each test counted in their noise.

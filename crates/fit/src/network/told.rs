@@ -64,6 +64,7 @@ impl Task<'_> {
                     .record(at)
                     .jump
                     .map(|_| own.gain * (curve.value(0.0) - curve.value(-self.record(at).step))),
+                later_jump: self.later_jump(at, curve.as_ref(), own),
                 rms: (square / residual.len() as f64).sqrt(),
                 rows: left.len(),
                 mean_square: unit * unit * mean_square(left),

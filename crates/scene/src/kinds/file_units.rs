@@ -113,3 +113,47 @@ pub(super) fn unit(
     }
     Some(Some(factor))
 }
+
+/// A strain of less than this in percent, and stresses of less and of more \[Pa\], are of no curve of a pad.
+const LEAST_STRAIN: f64 = 0.01;
+const STRESSES: [f64; 2] = [1e3, 1e8];
+const PERCENT: f64 = 0.01;
+
+impl KindReader<'_> {
+    /// Warns of stresses and strains whose unit is probably another: the largest of each column, and what one of its unit
+    /// is in SI units.
+    pub(super) fn odd_units(
+        self,
+        largest: [Option<(f64, f64)>; 2],
+        parameter: &Parameter,
+        place: Place,
+    ) {
+        if self.written(parameter) != [Dimension::NUMBER, Dimension::PRESSURE] {
+            return;
+        }
+        let [strain, stress] = largest.map(|own| own.map(|(value, unit)| (value.abs(), unit)));
+        let is_percent = |own: &(f64, f64)| (own.1 / PERCENT - 1.0).abs() < 1e-9;
+        if let Some((strain, _)) =
+            strain.filter(|own| is_percent(own) && own.0 > 0.0 && own.0 <= LEAST_STRAIN)
+        {
+            let number = format_short(strain / PERCENT, Dimension::NUMBER, 4);
+            let message = format!("the largest strain of the file is {number} %");
+            let help = format!(
+                "if it is {number} of the thickness, the unit is `[1]`: write that into the header, or \
+                 `units = [\"1\", …]` beside `file`"
+            );
+            self.quantities.faults.warning(place, Fault::odd(message, help));
+        }
+        let [least, most] = STRESSES;
+        if let Some((stress, _)) =
+            stress.filter(|own| own.0 > 0.0 && !(least..=most).contains(&own.0))
+        {
+            let shown = |value: f64| format_short(value, Dimension::PRESSURE, 3);
+            let meant = if stress < least { 1e3 * stress } else { 1e-3 * stress };
+            let message = format!("the largest stress of the file is {}", shown(stress));
+            let help =
+                format!("if {} is meant, the unit is another: look at the header", shown(meant));
+            self.quantities.faults.warning(place, Fault::odd(message, help));
+        }
+    }
+}

@@ -43,6 +43,35 @@ pub(super) struct FileRows<'d> {
     pub(super) place: Place,
 }
 
+/// What tells of faults in a file.
+struct Teller<'d> {
+    quantities: Quantities<'d>,
+    file: &'d TableFile,
+    /// Where the file is named.
+    named: Place,
+}
+
+impl Teller<'_> {
+    /// A fault at the bytes `span` of the file, and what is said of it besides.
+    fn tell(&self, span: ops::Range<usize>, fault: Fault, more: Vec<String>) {
+        let faults = self.quantities.faults;
+        let named = format!("the file is named in {}", faults.whereabouts(self.named));
+        let note = more.into_iter().chain([named]).collect::<Vec<_>>().join("; ");
+        faults.error(Place::new(self.file.number, &span), fault.with_note(note));
+    }
+
+    fn refuse(&self, error: TableError) {
+        let column = error.column.as_deref().map(in_column);
+        let likewise = error.likewise.map(|own| own.to_string());
+        let more = column.into_iter().chain(likewise).collect();
+        self.tell(error.span, Fault::Table(*error.fault), more);
+    }
+}
+
+fn in_column(name: &str) -> String {
+    format!("in column `{name}`")
+}
+
 impl<'d> KindReader<'d> {
     /// The rows of the file that `item` names, by its name alone or in a table of its own.
     pub(super) fn rows_of(self, item: &Item, parameter: &Parameter) -> Option<FileRows<'d>> {
@@ -107,25 +136,14 @@ impl<'d> KindReader<'d> {
             faults.error(item.place, Fault::odd(message, help));
             return None;
         }
-        let named = || format!("the file is named in {}", faults.whereabouts(name.place));
-        let tell = |span: ops::Range<usize>, fault: Fault, more: Vec<String>| {
-            let note = more.into_iter().chain([named()]).collect::<Vec<_>>().join("; ");
-            faults.error(Place::new(file.number, &span), fault.with_note(note));
-        };
-        let in_column = |own: &str| format!("in column `{own}`");
-        let refuse = |error: TableError| {
-            let column = error.column.as_deref().map(in_column);
-            let likewise = error.likewise.map(|own| own.to_string());
-            let more = column.into_iter().chain(likewise).collect();
-            tell(error.span, Fault::Table(*error.fault), more);
-        };
+        let teller = Teller { quantities: self.quantities, file, named: name.place };
         let table = match DataTable::read(&file.source.text) {
             Ok(table) => table,
             Err(error) if *error.fault == TableFault::Empty => {
                 return self.without_rows(path, name.place);
             }
             Err(error) => {
-                refuse(error);
+                teller.refuse(error);
                 return None;
             }
         };
@@ -133,60 +151,72 @@ impl<'d> KindReader<'d> {
             file.remark(Remark::LeftOut(lines));
         }
         if table.columns() < 2 {
-            tell(0..0, Fault::Table(TableFault::OneColumn), Vec::new());
+            teller.tell(0..0, Fault::Table(TableFault::OneColumn), Vec::new());
             return None;
         }
-        let dimensions = self.dimensions(parameter);
         let columns = self.columns(&table, wishes, parameter, name.place)?;
-        let is_motion =
-            parameter.kind == ParameterKind::TimeTable && self.driven == Dimension::LENGTH;
-        let [first, second] = [0, 1].map(|at| {
-            let quantities = Quantities { is_motion: is_motion && at == 1, ..self.quantities };
-            let given = wishes.units.map(|units| units[at]);
-            let misread = misread_unit(&table, columns[at]).filter(|_| given.is_none());
-            if let Some((error, span)) = misread {
-                let expected = self.quantities.basis.dimension(dimensions[at]);
-                let column = table.name(columns[at]).map(|own| own.0);
-                tell(
-                    span,
-                    Fault::Unreadable { error, expected },
-                    column.map(in_column).into_iter().collect(),
-                );
-                return None;
-            }
-            unit(file, table.unit(columns[at]), given, dimensions[at], quantities.unwatched())
-        });
-        let units = [first?, second?];
+        let units = self.units(&table, columns, wishes, parameter, &teller)?;
         let mut scales =
             units.map(|own| own.map_or(Scale::SI, |factor| Scale { factor, offset: 0.0 }));
         scales[1].factor *= wishes.scale.unwrap_or(1.0);
-        let samples = table.samples(columns, scales, refuse)?;
+        let samples = table.samples(columns, scales, |error| teller.refuse(error))?;
         if samples.points.is_empty() {
             return self.without_rows(path, name.place);
         }
         let largest = |of: fn(&(f64, f64)) -> f64| {
             samples.points.iter().map(of).max_by(|one, other| one.abs().total_cmp(&other.abs()))
         };
-        let missing = [largest(|own| own.0), largest(|own| own.1)];
-        let missing = [0, 1].map(|at| missing[at].filter(|_| units[at].is_none()));
+        let largest = [largest(|own| own.0), largest(|own| own.1)];
+        let missing = [0, 1].map(|at| largest[at].filter(|_| units[at].is_none()));
         self.without_units(missing, parameter, name.place);
+        self.odd_units([0, 1].map(|at| largest[at].zip(units[at])), parameter, name.place);
         if parameter.kind == ParameterKind::TimeTable
             && let Some(error) = out_of_order(&table, columns[0], &samples)
         {
-            refuse(error);
+            teller.refuse(error);
             return None;
         }
         let points = samples.points.into_iter().zip(samples.starts);
         let rows: Vec<Row> = points.map(|((at, value), start)| Row { at, value, start }).collect();
         for row in &rows {
-            let basis = self.quantities.basis;
-            if let Err(invalid) = basis.check(parameter.name, dimensions[0], row.at) {
+            let (basis, first) = (self.quantities.basis, self.dimensions(parameter)[0]);
+            if let Err(invalid) = basis.check(parameter.name, first, row.at) {
                 let help = "give its unit: `[%]` in the header, or `units = [\"%\", \"kPa\"]` in the scene";
-                tell(file.row(row.start), Fault::Invalid(invalid).with_help(help), Vec::new());
+                let fault = Fault::Invalid(invalid).with_help(help);
+                teller.tell(file.row(row.start), fault, Vec::new());
                 return None;
             }
         }
         Some(FileRows { file, rows, place: name.place })
+    }
+
+    /// What one of the unit of each of two columns is in SI units; nothing where none says a unit.
+    fn units(
+        self,
+        table: &DataTable<'_>,
+        columns: [usize; 2],
+        wishes: &Wishes<'_>,
+        parameter: &Parameter,
+        teller: &Teller<'_>,
+    ) -> Option<[Option<f64>; 2]> {
+        let dimensions = self.dimensions(parameter);
+        let is_motion =
+            parameter.kind == ParameterKind::TimeTable && self.driven == Dimension::LENGTH;
+        let [first, second] = [0, 1].map(|at| {
+            let quantities = Quantities { is_motion: is_motion && at == 1, ..self.quantities };
+            let given = wishes.units.map(|units| units[at]);
+            let misread = misread_unit(table, columns[at]).filter(|_| given.is_none());
+            if let Some((error, span)) = misread {
+                let expected = self.quantities.basis.dimension(dimensions[at]);
+                let column = table.name(columns[at]).map(|own| in_column(own.0));
+                let fault = Fault::Unreadable { error, expected };
+                teller.tell(span, fault, column.into_iter().collect());
+                return None;
+            }
+            let written = table.unit(columns[at]);
+            unit(teller.file, written, given, dimensions[at], quantities.unwatched())
+        });
+        Some([first?, second?])
     }
 
     fn without_rows<T>(self, path: &str, place: Place) -> Option<T> {

@@ -91,8 +91,18 @@ impl KindReader<'_> {
         rows.iter_mut().for_each(|row| row.at += shift);
         if is_over_time {
             self.warn_of_early(&rows, place);
+            self.warn_of_nothing(&rows, place);
         }
         Some(FileRows { file, rows, place })
+    }
+
+    /// Warns of a record that is zero throughout.
+    fn warn_of_nothing(self, rows: &[Row], place: Place) {
+        if rows.iter().all(|own| own.value == 0.0) {
+            let message = "every value of the record is zero: nothing acts";
+            let help = "look at its column, `columns = [\"t\", \"acc\"]`, and at the file";
+            self.quantities.faults.warning(place, Fault::odd(message, help));
+        }
     }
 
     /// Warns of what a record holds before the run, which begins at 0.

@@ -192,6 +192,14 @@ impl<'d> ContextReader<'d> {
         }
         let reader = KindReader::new(self.library.quantities(site.document, self.faults));
         let what = (Indenter::KIND, Indenter::PARAMETERS);
+        let keys = entry.item.table().unwrap_or(&[]);
+        if entry.item.table().is_some() && !keys.iter().any(|own| own.key == "shape") {
+            let message = "`pressed-by` has no `shape`".to_owned();
+            let help = "write `{ shape = \"sphere\", radius = \"50 mm\" }`; a dome has `radius` and `diameter`, a \
+                        cylinder `radius` and `length`, a flat `diameter`, and each `pad-radius` where the pad is curved";
+            self.faults.error(entry.item.place, Fault::odd(message, help));
+            return None;
+        }
         let own = reader.read_as(what, &Indenter::from_values, &entry.item, entry.key_place)?;
         Some((own, entry.item.place))
     }

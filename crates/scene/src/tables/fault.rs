@@ -131,6 +131,9 @@ pub enum TableFault {
     /// A comma that may stand before decimals, or between thousands.
     #[error("the comma in `{text}` may stand before decimals or between thousands")]
     CommaOrThousands { text: String },
+    /// A comma that may stand before decimals, or between columns.
+    #[error("`{text}` may be one number with a decimal comma, or two columns")]
+    CommaOrColumns { text: String },
     /// A unit of a column that cannot be read.
     #[error("{0}")]
     BadUnit(UnitError),
@@ -212,6 +215,13 @@ impl TableFault {
                 return Some(format!(
                     "write `{joined}` where it stands between thousands, or `{longer}` where it stands \
                      before decimals; one number that tells is enough"
+                ));
+            }
+            Self::CommaOrColumns { text } => {
+                let point = text.replace(',', ".");
+                return Some(format!(
+                    "write `{point}`, or `\"{text}\"` between quotes, where it is one number; names above them, as in \
+                     `time [s],force [N]`, say that these are two columns"
                 ));
             }
             Self::BadUnit(_) | Self::WrongDimension { .. } => {

@@ -259,6 +259,45 @@ pub(super) fn decimal(text: &str, layout: &Layout<'_>) -> Result<Decimal, TableE
     Err(TableError::new(text, field.span(), fault).in_column(layout.name_of(column)))
 }
 
+/// Whether two columns between commas, without names, may be one with decimal commas: whole numbers, and digits behind the
+/// comma, in all rows.
+///
+/// # Errors
+///
+/// The first row, where a name with a unit above it, digits that begin with a zero, or numbers that fall speak for one
+/// column.
+pub(super) fn check_columns(text: &str, layout: &Layout<'_>) -> Result<(), TableError> {
+    if layout.separator != Separator::Mark(',') || layout.header.is_some() || layout.columns != 2 {
+        return Ok(());
+    }
+    let is_whole = |own: &str| !own.is_empty() && own.bytes().all(|byte| byte.is_ascii_digit());
+    let (mut fields, mut first, mut before) = (Vec::new(), None, f64::NEG_INFINITY);
+    let mut is_one = is_named_alone(&text[..layout.rows], &mut fields);
+    for (at, line) in layout.lines(text) {
+        split(line, at, layout.separator, &mut fields);
+        let whole = fields[0].text.trim_start_matches(['+', '-']);
+        let digits = fields.get(1).map(|own| own.text);
+        if !is_whole(whole) || digits.is_some_and(|own| !is_whole(own)) {
+            return Ok(());
+        }
+        let value = fields[0].text.parse().unwrap_or(before);
+        is_one |= value < before || digits.is_some_and(|own| own.len() > 1 && own.starts_with('0'));
+        before = value;
+        first = first.or_else(|| digits.map(|_| (at, line)));
+    }
+    let Some((at, line)) = first.filter(|_| is_one) else { return Ok(()) };
+    let fault = TableFault::CommaOrColumns { text: line.trim().to_owned() };
+    Err(TableError::new(text, at..at + line.len(), fault))
+}
+
+/// Whether the last line before the rows is one name with a unit.
+fn is_named_alone<'t>(before: &'t str, fields: &mut Vec<Field<'t>>) -> bool {
+    let Some((at, line)) = lines(before, 0).last() else { return false };
+    split(line, at, Separator::Mark(','), fields);
+    let unit = fields[0].name_and_unit().1;
+    fields.len() == 1 && unit.is_some_and(|own| is_unit(own.text))
+}
+
 impl Layout<'_> {
     /// The name of a column for messages, or its number from 1.
     pub(super) fn name_of(&self, column: usize) -> String {

@@ -18,7 +18,7 @@ use dashpot_network::parameters::Dimension;
 use self::{
     cells::{Decimal, split},
     fault::MOST_ROWS,
-    layout::{Layout, decimal, lines},
+    layout::{Layout, check_columns, decimal, lines},
 };
 use crate::units::{Quantity, UnitError, parse_quantity};
 
@@ -90,11 +90,12 @@ impl<'t> DataTable<'t> {
     ///
     /// # Errors
     ///
-    /// A text without a line, and one whose commas may stand before decimals or between thousands. Cells are
-    /// looked at when their column is read.
+    /// A text without a line, and one whose commas may stand before decimals or between thousands, or between columns. Cells
+    /// are looked at when their column is read.
     pub fn read(text: &'t str) -> Result<Self, TableError> {
         let empty = || TableError::new(text, 0..0, TableFault::Empty);
         let layout = Layout::of(text).ok_or_else(empty)?;
+        check_columns(text, &layout)?;
         let decimal = decimal(text, &layout)?;
         Ok(Self { text, layout, decimal })
     }

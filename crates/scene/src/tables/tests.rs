@@ -185,3 +185,29 @@ fn a_million_rows_are_read_and_one_more_is_not() {
         ("1000000,1", "the file has more than 1000000 rows")
     );
 }
+
+#[test]
+fn one_column_with_decimal_commas_is_not_taken_for_two() {
+    for text in [
+        "acc [g]\n1,5\n2,25\n3,5\n",
+        "Logger 7\nacc [g]\n-1,5\n2\n3,5\n",
+        "1,5\n2,5\n1,75\n",
+        "0,5\n1,05\n",
+    ] {
+        let error = DataTable::read(text).unwrap_err();
+        assert!(matches!(*error.fault, TableFault::CommaOrColumns { .. }), "{text}: {error}");
+        assert!(error.help().is_some_and(|own| own.contains('.') && own.contains("time [s]")));
+    }
+    // Names, points, signs, and columns that rise say that there are two.
+    for text in [
+        "t [s],acc [g]\n1,5\n2,25\n1,5\n",
+        "0,5\n1.5,5\n1,2\n",
+        "3,5\n2,-5\n1,2\n",
+        "0,0\n1,0\n1,5\n2,5\n",
+        "# t [s],acc [g]\n1,5\n0,5\n",
+    ] {
+        assert_eq!(DataTable::read(text).unwrap().columns(), 2, "{text}");
+    }
+    let quoted = DataTable::read("acc [g]\n\"1,5\"\n\"2,25\"\n").unwrap();
+    assert_eq!(quoted.columns(), 1);
+}

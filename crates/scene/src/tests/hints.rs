@@ -318,3 +318,20 @@ fn a_limit_with_a_sign_is_told_its_key() {
     assert!(told.contains("`< 1000` has a sign, which the key says here"), "{told}");
     assert!(told.contains("write { max = \"1000\" }"), "{told}");
 }
+
+#[test]
+fn a_body_without_a_shape_is_told_the_keys_of_each() {
+    for keys in ["{ radius = \"5 cm\" }", "{ sphere = \"5 cm\" }", "{}"] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = 5, velocity = \"4 m/s\" }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], thickness = \"3 cm\", pressed-by = {keys}, spring = \"1 MPa\" }}\n\
+             [run]\nduration = \"8 ms\"\n"
+        );
+        let shown = read_text(&text).unwrap_err().render(false);
+        let shown = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(shown.contains("`pressed-by` has no `shape`"), "{shown}");
+        for part in ["radius = \"50 mm\"", "cylinder", "`length`", "flat", "pad-radius"] {
+            assert!(shown.contains(part), "{keys}: {part}: {shown}");
+        }
+    }
+}

@@ -12,6 +12,7 @@ mod materials;
 mod messages;
 mod models;
 mod named;
+mod odd_units;
 mod pads;
 mod round_trip;
 mod settings;

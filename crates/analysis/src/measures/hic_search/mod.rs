@@ -18,7 +18,7 @@ const SMALLEST: f64 = 1e-8;
 
 /// The interval `[t1, t2]` that maximises `(t2 − t1)(V/(t2 − t1))^2.5`, `V = |∫ s dt|`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Optimum {
+pub struct Optimum {
     /// The maximum \[unit^2.5·s\].
     pub value: f64,
     /// Its interval \[s\].
@@ -47,7 +47,9 @@ impl Optimum {
 /// `s(t1)` and `s(t2)` are 0.6 times the mean, at a jump or an end of the window, or, where the
 /// cap is active, where `s(t1) = s(t2)`. Nothing is sampled, so no optimum is missed. A signal with a single
 /// hump needs no more than a search for its level.
-pub(crate) fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
+///
+/// Dense output of a run and the line between the samples of a record are both such signals.
+pub fn optimum(signal: &Signal, window: (f64, f64), cap: f64) -> Optimum {
     let area = Area::new(signal, window, Sense::Magnitude);
     let [with, against] = area.of_signs();
     if !area.changes_sign() {

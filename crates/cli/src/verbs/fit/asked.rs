@@ -5,7 +5,7 @@ use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, Tunables};
 use dashpot_signal::Cfc;
 
-use super::{pressed::times, scene::Varied};
+use super::{pressed::times, scene::Varied, target::is_output};
 use crate::{
     args::{assignment, frequency_class, share},
     error::CliError,
@@ -49,7 +49,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let mut right = right.split(',');
     let target = right.next().unwrap_or_default();
     let mut set: Vec<(String, String)> = right.map(assignment).collect::<Result<_, _>>()?;
-    let is_model = !target.contains('.');
+    let is_model = !is_output(target.trim());
     let mut take = |word: &str| {
         let at = set.iter().position(|own| own.0 == word)?;
         Some(set.remove(at).1)
@@ -91,6 +91,13 @@ impl Asked {
 
     /// Whether what is set is there in the scene.
     pub(super) fn check(&self, tunables: &Tunables) -> Result<(), CliError> {
+        let is_rate =
+            |own: &(String, String)| own.0 == "rate" && tunables.anything("rate").is_err();
+        if self.set.iter().any(is_rate) {
+            let reason =
+                "a rate is that at which a model alone is pressed, such as `pad`".to_owned();
+            return Err(CliError::Fit { text: self.text.clone(), reason });
+        }
         let known = self.set.iter().map(|own| tunables.anything(&own.0).map(|_| ()));
         let known: Result<(), _> = known.collect();
         known.map_err(|fault| CliError::Tunable { flag: FLAG, fault })
@@ -110,6 +117,17 @@ impl Asked {
     /// File, column and output, as for a curve beside a run.
     pub(super) fn measured_as(&self) -> String {
         format!("{}:{}={}", self.file, self.columns.join(","), self.target)
+    }
+
+    /// What to write in place of an output where the file has a force over a deformation, and no times.
+    pub(super) fn of_model(&self) -> Option<String> {
+        let file = MeasuredFile::read(FLAG, &self.file).ok()?;
+        let table = file.table().ok()?;
+        let has = |dimension| !table.measuring(dimension).is_empty();
+        let is_curve = !has(Dimension::TIME) && has(Dimension::LENGTH) && has(Dimension::FORCE);
+        let name = self.target.split_once('.').map_or("", |own| own.0);
+        let columns = self.columns.join(",");
+        is_curve.then(|| format!("{}:{columns}={name},rate=10 mm/min", self.file))
     }
 
     /// The record in the file, without rows behind a time \[s\].

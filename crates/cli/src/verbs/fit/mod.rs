@@ -7,6 +7,7 @@ mod figures;
 mod files;
 mod pressed;
 mod scene;
+mod scene_object;
 mod scene_words;
 mod section;
 mod shown;

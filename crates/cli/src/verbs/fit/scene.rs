@@ -408,6 +408,16 @@ fn wrong(fault: &NetworkFault, curves: &[(Asked, Target)]) -> CliError {
 
 /// The numbers that the command line names, with their bounds.
 fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>, CliError> {
+    let wanted = |name: &str| {
+        let reason = format!("`{name}` wants bounds above zero, such as \"{name}=10..1000 kN/m\"");
+        CliError::WrongSetting { name: "--vary".to_owned(), reason }
+    };
+    let is_range = |own: &&String| {
+        own.split_once('=').is_some_and(|own| own.1.contains("..") && !own.1.contains(','))
+    };
+    if let Some(own) = arguments.vary.iter().find(|own| !is_range(own)) {
+        return Err(wanted(own.split('=').next().unwrap_or(own).trim()));
+    }
     let parsed = arguments.vary.iter().map(|own| Variation::parse(own));
     let mut variations = parsed.collect::<Result<Vec<_>, _>>()?;
     let flag = "--vary";
@@ -417,9 +427,7 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         let bounds = [own.values[0], own.values[own.len() - 1]];
         let is_range = bounds[0] > 0.0 && bounds[0] < bounds[1];
         if own.is_of_words() || !is_range {
-            let reason =
-                format!("`{0}` wants bounds above zero, such as \"{0}=10..1000 kN/m\"", own.name);
-            return Err(CliError::WrongSetting { name: "--vary".to_owned(), reason });
+            return Err(wanted(&own.name));
         }
         let number = &tunables.all()[at];
         let unit = if number.unit.is_empty() { &own.unit } else { &number.unit };

@@ -16,8 +16,7 @@ use crate::{
     folder::Staged,
     input::title,
     numbers::{percent_signed, quantity, significant},
-    output::{Pairs, Study, Text, VERSION, list, object},
-    said,
+    output::{Study, Text, list},
 };
 
 /// Digits of fitted values.
@@ -50,7 +49,7 @@ fn ends(own: &Varied, found: &Interval) -> [String; 2] {
 }
 
 impl FittedScene {
-    fn verdict(&self, at: usize) -> &'static str {
+    pub(super) fn verdict(&self, at: usize) -> &'static str {
         let own = &self.fit.numbers[at];
         match own {
             Interval { is_on_bound: true, .. } => "on its bound",
@@ -194,7 +193,9 @@ impl FittedScene {
             })
         }));
         let each = || self.curves.iter().zip(&fit.tests).zip(&self.tests);
-        all.extend(each().filter_map(|(((asked, _), own), test)| misses(&asked.file, own, test)));
+        all.extend(each().filter_map(|(((asked, curve), own), test)| {
+            misses(&asked.file, &curve.output.key(), own, test)
+        }));
         all.extend(each().filter_map(|(((asked, curve), own), test)| {
             let scatter = own.scatter.map(|own| own.deviation);
             let known = test.noise.or(scatter).or(own.noise_at_rest)?;
@@ -252,6 +253,17 @@ impl FittedScene {
                  be anywhere between them, which the intervals hold",
                 asked.file,
                 curve.output.key()
+            ))
+        }));
+        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
+            let later = own.later_jump?;
+            Some(format!(
+                "{}: `{}` jumps again, by {} at {} of the record, where it is touched once more: which sample is the first \
+                 behind that is not looked for, and a row there may be far off",
+                asked.file,
+                curve.output.key(),
+                curve.output.told(later.height, FEW),
+                quantity(later.time, "s", FEW)
             ))
         }));
         all.extend(self.repeats());
@@ -331,8 +343,17 @@ fn undetermined(own: &Shown) -> String {
     )
 }
 
-fn misses(file: &str, own: &TestFit, test: &Test) -> Option<String> {
+fn misses(file: &str, key: &str, own: &TestFit, test: &Test) -> Option<String> {
     let off = own.model_peak / own.measured_peak - 1.0;
+    let largest = test.rows.iter().map(|row| row.1);
+    let largest = largest.max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
+    if test.kind == Kind::Blow && off.abs() > MISSED && largest * own.model_peak < 0.0 {
+        let [measured, model] =
+            [largest, own.model_peak].map(|own| if own < 0.0 { "negative" } else { "positive" });
+        return Some(format!(
+            "the largest value of {file} is {measured}, and `{key}` is {model}: turn the sign of the column"
+        ));
+    }
     (off.abs() > MISSED).then(|| {
         format!(
             "the peak of {file} is missed by {}: noise, {}a model that it is not",
@@ -369,87 +390,6 @@ impl Study for FittedScene {
     }
 
     fn object(&self) -> impl Serialize {
-        let parameters = self.numbers.iter().zip(&self.fit.numbers).enumerate();
-        let parameters = parameters.map(|(at, (own, found))| {
-            let [low, high] = found.ends;
-            let identified = self.verdict(at) == "identified";
-            let on_bound = found.is_on_bound;
-            let profiled = found.source == Source::Profile;
-            let (value, unit) = (found.value, &own.si);
-            let own = object! { value, low, high, unit, identified, on_bound, profiled };
-            (self.numbers[at].name.as_str(), own)
-        });
-        let shown = self.shown.iter().map(|own| {
-            let constants = own.constants.iter().map(|(name, value, ends, unit)| {
-                let [low, high] = ends.map_or([None; 2], |ends| ends.map(Some));
-                object! { name, value, low, high, unit }
-            });
-            object! { element: &own.element, parameters: &own.numbers, constants: list(constants) }
-        });
-        let tests = self.curves.iter().zip(&self.fit.tests).enumerate();
-        let tests = tests.map(|(at, ((asked, curve), own))| {
-            let known = self.known[at].iter().zip(&own.known);
-            let known =
-                known.map(|(own, value)| (own.name.as_str(), object! { value, unit: &own.si }));
-            let is_modulus = curve.output.kind() == Kind::Modulus;
-            let model = curve
-                .rows
-                .iter()
-                .zip(&own.residual)
-                .map(|(row, left)| if is_modulus { row.1 * left.exp() } else { row.1 + left });
-            object! {
-                file: &asked.file,
-                output: curve.output.key(),
-                unit: curve.output.unit(),
-                rms: own.rms,
-                shift: own.shift,
-                offset: own.offset,
-                measured_peak: own.measured_peak,
-                model_peak: own.model_peak,
-                held_out: own.held_out.map(|own| own.peak),
-                held_out_rms: own.held_out.map(|own| own.rms),
-                jump: own.jump,
-                cfc: self.tests[at].filter.map(|own| own.0.class()),
-                noise: own.noise,
-                noise_at_rest: own.noise_at_rest,
-                scatter: own.scatter.map(|own| object! {
-                    deviation: own.deviation,
-                    correlation: own.correlation,
-                    records: own.records,
-                }),
-                gain: own.gain,
-                known: known.collect::<Pairs<_, _>>(),
-                curve: object! {
-                    time: list(curve.rows.iter().map(|row| row.0)),
-                    measured: list(curve.rows.iter().map(|row| row.1)),
-                    model: list(model),
-                    band: &own.band,
-                },
-            }
-        });
-        let others = self.fit.others.iter();
-        let measures = self.measures.iter().map(|own| {
-            let (value, unit, curved) = (own.band.value, own.unit, own.band.is_bent);
-            let [low, high] = [-1.0, 1.0].map(|sign| own.band.half.map(|half| value + sign * half));
-            (own.key.as_str(), object! { value, low, high, unit, curved })
-        });
-        object! {
-            dashpot: VERSION,
-            title: &self.scene.title,
-            file: &self.scene.file,
-            parameters: parameters.collect::<Pairs<_, _>>(),
-            determined: list(shown),
-            measures: measures.collect::<Pairs<_, _>>(),
-            tests: list(tests),
-            converged: self.fit.is_converged,
-            stopped: self.fit.is_stopped,
-            floor: None::<f64>,
-            among: self.among.as_ref().map(Among::object),
-            starts: self.fit.reached,
-            others: list(others.map(|own| object! { values: &own.values, cost: own.cost })),
-            outliers: self.fit.outliers,
-            scene_warnings: said::warning_objects(&self.scene),
-            scene_notes: said::note_objects(&self.scene),
-        }
+        super::scene_object::object_of(self)
     }
 }

@@ -74,9 +74,11 @@ pub(super) fn targets(
     assembly: &Assembly,
 ) -> Result<Vec<Target>, CliError> {
     if is_output(&asked.target) {
-        if asked.rate.is_some() {
-            let reason =
-                "a rate is that at which a model alone is pressed, such as `pad`".to_owned();
+        if let Some(other) = asked.of_model() {
+            let reason = format!(
+                "it has no times; a force over a deformation is fitted to the model alone, at the rate at which it was \
+                 pressed: \"{other}\""
+            );
             return Err(CliError::Fit { text: asked.text.clone(), reason });
         }
         let curve = MeasuredCurve::read((FLAG, &asked.measured_as()), 0.0, assembly)?;
@@ -97,7 +99,7 @@ pub(super) fn targets(
 const SECTIONS: [&str; 3] = ["models", "materials", "elements"];
 
 /// Whether a name is that of an output: `pad.force`, where `pad`, `models.pad` and `materials.felt` are models.
-fn is_output(name: &str) -> bool {
+pub(super) fn is_output(name: &str) -> bool {
     name.split_once('.').is_some_and(|own| !SECTIONS.contains(&own.0))
 }
 

@@ -97,3 +97,45 @@ fn the_clock_lies_between_the_two_samples_of_the_jump() {
         assert!((jump / (PAD[1] * SPEED) - 1.0).abs() < 0.05, "{jump}");
     }
 }
+
+/// A force that is met twice.
+struct Twice(Kelvin);
+
+const AGAIN: f64 = 0.018;
+
+impl Curve for Twice {
+    fn value(&self, time: f64) -> f64 {
+        self.0.value(time) + 0.5 * self.0.value(time - AGAIN)
+    }
+
+    fn peak(&self) -> (f64, f64) {
+        self.0.peak()
+    }
+}
+
+#[test]
+fn a_second_touch_that_jumps_is_told_with_its_time() {
+    let mut stream = Stream::new(9);
+    let (once, _) = struck(&mut stream, 1.0);
+    assert_eq!(fitted(&[once]).tests[0].later_jump, None);
+    let late = 3.02e-3;
+    let truth = Twice(Kelvin(PAD));
+    let rows = (0..600).map(|at| STEP * f64::from(at));
+    let rows = rows.map(|time| (time, truth.value(time - late) + 5.0 + normal(&mut stream)));
+    let test = Test { rows: rows.collect(), is_shifted: true, is_offset: true, ..Test::default() };
+    let number = |own: f64| Number { low: own / 9.0, high: own * 9.0, start: own * 1.5 };
+    let settings = NetworkSettings { starts: 1, ..SETTINGS };
+    let model = |_: usize, own: &[f64]| -> Result<Box<dyn Curve>, String> {
+        Ok(Box::new(Twice(Kelvin([own[0], own[1]]))))
+    };
+    let own = fit(&PAD.map(number), &[test.clone()], settings, &model).unwrap();
+    let later = own.tests[0].later_jump.unwrap();
+    assert!((later.time - late - AGAIN).abs() < STEP, "{later:?}");
+    // Half of `c v`.
+    assert!((later.height / (0.5 * PAD[1] * SPEED) - 1.0).abs() < 0.05, "{later:?}");
+    let known = Test { is_shifted: false, ..test };
+    assert_eq!(
+        fit(&PAD.map(number), &[known], settings, &model).unwrap().tests[0].later_jump,
+        None
+    );
+}

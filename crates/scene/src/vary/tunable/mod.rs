@@ -229,7 +229,13 @@ impl Tunables {
                     let words: Vec<String> = known.iter().cloned().chain(paths).collect();
                     nearest(name, words.iter().map(String::as_str)).map(str::to_owned)
                 });
-                Err(TunableFault::Unknown { name: name.to_owned(), is_word, near, known })
+                let is_owner = |part: &String| wanted.iter().rev().nth(1) == Some(&part.as_str());
+                let has_owner = |own: &(Vec<String>, usize)| {
+                    own.0.split_last().is_some_and(|own| own.1.iter().any(is_owner))
+                };
+                let is_left_out = near.is_none() && self.paths.iter().any(has_owner);
+                let name = name.to_owned();
+                Err(TunableFault::Unknown { name, is_word, near, known, is_left_out })
             }
             ref several => {
                 let names = several.iter().map(|&at| format!("`{}`", self.all[at].name)).collect();
@@ -422,7 +428,14 @@ fn collect(item: &Item, path: &mut Vec<String>, found: &mut Found) {
 pub enum TunableFault {
     /// No number goes by this name.
     #[error("the scene has no {} `{name}`", if *.is_word { "word" } else { "number" })]
-    Unknown { name: String, is_word: bool, near: Option<String>, known: Vec<String> },
+    Unknown {
+        name: String,
+        is_word: bool,
+        near: Option<String>,
+        known: Vec<String>,
+        /// Whether the scene has what it would be of.
+        is_left_out: bool,
+    },
     /// Words for what is a number.
     #[error("`{name}` is a number, {number} in the scene, and its values are none")]
     IsNumber { name: String, number: String },
@@ -447,12 +460,20 @@ impl TunableFault {
     /// What to do.
     pub fn help(&self) -> Option<String> {
         match self {
-            Self::Unknown { near, known, is_word, .. } => {
+            Self::Unknown { name, near, known, is_word, is_left_out } => {
                 let kind = if *is_word { "words" } else { "numbers" };
                 let listed = format!("its {kind} are {}", list(known));
-                Some(match near {
+                let listed = match near {
                     Some(near) => format!("did you mean `{near}`? {listed}"),
                     None => listed,
+                };
+                let (owner, key) = name.rsplit_once('.').unwrap_or_default();
+                Some(if *is_left_out {
+                    format!(
+                        "{listed}; only what stands in the scene is set: to give `{owner}` a `{key}`, write it there first"
+                    )
+                } else {
+                    listed
                 })
             }
             Self::Ambiguous { .. } => {

@@ -1,0 +1,137 @@
+//! What a new user of `fit` trips over first: each is refused, or told, with what to write in its place.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, err, out, run};
+
+const SCENE: &str = "[values]\nK = \"100 kN/m\"\n[nodes]\nhead = { mass = \"4 kg\", velocity = \"2 m/s\" }\n\
+     [elements]\npad = { between = [\"head\", \"ground\"], spring = \"K\" }\n[effects]\n\
+     separation.pad = { at = \"head\" }\n[run]\nduration = \"40 ms\"\n";
+
+/// Stiffness \[N/m\] of the pad of the records.
+const STIFFNESS: f64 = 60e3;
+
+/// The blow of 4 kg at 2 m/s on a spring, 3 ms late, with a sign.
+fn blow(sign: f64) -> String {
+    let omega: f64 = (STIFFNESS / 4.0).sqrt();
+    let row = |at: u32| {
+        let time = 1e-4 * f64::from(at);
+        let place = omega * (time - 3e-3);
+        let inside = (0.0..=std::f64::consts::PI).contains(&place);
+        let value = if inside { sign * 2.0 * omega * place.sin() } else { 0.0 };
+        format!("{:.1},{value:.6}\n", 1e3 * time)
+    };
+    "t [ms],acc [m/s^2]\n".to_owned() + &(0..350).map(row).collect::<String>()
+}
+
+/// A ramp and a hold on a spring beside two Maxwell elements, in closed form.
+fn held(ramp: f64, depth: f64) -> String {
+    let branches = [(60e3, 0.05), (20e3, 2.0)];
+    let row = |at: u32| {
+        let time = 0.05 * f64::from(at);
+        let speed = depth / ramp;
+        let way = depth * (time / ramp).min(1.0);
+        let force = |(stiffness, tau): (f64, f64)| {
+            let grown = -(-time.min(ramp) / tau).exp_m1();
+            stiffness * speed * tau * grown * (-(time - ramp).max(0.0) / tau).exp()
+        };
+        let all: f64 = branches.into_iter().map(force).sum::<f64>() + 30e3 * way;
+        format!("{time:.3},{:.9},{all:.9}\n", 1e3 * way)
+    };
+    "t [s],way [mm],force [N]\n".to_owned() + &(0..201).map(row).collect::<String>()
+}
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let own = Self(TempDir::new().unwrap());
+        for (name, text) in [
+            ("pad.toml", SCENE.to_owned()),
+            ("drop.csv", blow(1.0)),
+            ("turned.csv", blow(-1.0)),
+            ("pressed.csv", "way [mm],force [N]\n0,0\n1,60\n2,120\n1,60\n".to_owned()),
+            ("fast.csv", held(0.1, 0.005)),
+            ("slow.csv", held(1.0, 0.01)),
+        ] {
+            fs::write(own.0.path().join(name), text).unwrap();
+        }
+        own
+    }
+
+    fn at(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    /// The exit code and all words of a fit of the scene.
+    fn fit(&self, to: &str, rest: &[&str]) -> (i32, String) {
+        let (scene, to) = (self.at("pad.toml"), self.at(to));
+        let found = run(&[&["fit", &scene, "--to", &to], rest].concat());
+        let text = out(&found) + &err(&found);
+        (code(&found), text.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+}
+
+#[test]
+fn what_is_asked_for_wrongly_is_refused_with_what_to_write() {
+    let folder = Folder::new();
+    let range = ["--vary", "K=5..500 kN/m"];
+    for (to, rest, word) in [
+        ("pressed.csv:force=pad.force", range, "pressed.csv:force=pad,rate=10 mm/min"),
+        ("drop.csv:acc=head.acceleration,rate=10 mm/min", range, "a model alone is pressed"),
+        ("drop.csv:acc=head.acceleration", ["--vary", "K"], "\"K=10..1000 kN/m\""),
+        ("drop.csv:acc=head.acceleration", ["--vary", "K=5..500 kN/m,26,log"], "wants bounds"),
+        ("drop.csv:acc=head.acceleration", ["--vary", "K=5,10 kN/m"], "wants bounds"),
+    ] {
+        let (status, text) = folder.fit(to, &rest);
+        assert_eq!(status, 2, "{to} {rest:?}: {text}");
+        assert!(text.contains(word), "{to} {rest:?}: {text}");
+    }
+    let (status, text) = folder.fit("pressed.csv:force=models.pad,rate=10 mm/min", &range);
+    assert!(status == 2 && text.contains("models.pad"), "{text}");
+}
+
+#[test]
+fn a_column_of_the_other_sign_is_told_first() {
+    let folder = Folder::new();
+    let range = ["--vary", "K=5..500 kN/m"];
+    let (status, text) = folder.fit("turned.csv:acc=head.acceleration", &range);
+    assert_eq!(status, 0, "{text}");
+    assert!(text.contains("is negative, and `head.acceleration` is positive: turn"), "{text}");
+    let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &range);
+    assert!(!text.contains("turn the sign"), "{text}");
+}
+
+#[test]
+fn like_parts_that_change_places_are_no_other_minimum() {
+    let folder = Folder::new();
+    let other = format!("{}:force=pad", folder.at("slow.csv"));
+    let (status, text) =
+        folder.fit("fast.csv:force=pad", &["--among", "pad=prony", "--to", &other, "--json"]);
+    assert_eq!(status, 0, "{text}");
+    let end = text.rfind('}').map_or(0, |at| at + 1);
+    let own: Value = serde_json::from_str(&text[..end]).unwrap();
+    assert_eq!(own["others"].as_array().unwrap().len(), 0, "{}", own["others"]);
+    let value = |name: &str| own["parameters"][name]["value"].as_f64().unwrap();
+    let mut branches = [("pad.k1", "pad.c1"), ("pad.k2", "pad.c2")]
+        .map(|(spring, dashpot)| (value(spring), value(dashpot)));
+    branches.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let right = [(20e3, 40e3), (60e3, 3e3)];
+    for (found, right) in branches.into_iter().zip(right) {
+        assert!((found.0 / right.0 - 1.0).abs() < 1e-3, "{branches:?}");
+        assert!((found.1 / right.1 - 1.0).abs() < 1e-3, "{branches:?}");
+    }
+    assert!((value("pad.k") / 30e3 - 1.0).abs() < 1e-4, "{}", value("pad.k"));
+}
+
+#[test]
+fn what_a_scene_leaves_out_is_told_where_it_is_set() {
+    let folder = Folder::new();
+    let found = run(&["run", &folder.at("pad.toml"), "--set", "pad.thickness=20 mm"]);
+    let text = err(&found).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(code(&found), 2, "{text}");
+    assert!(text.contains("to give `pad` a `thickness`, write it there first"), "{text}");
+}
