@@ -196,7 +196,7 @@ mod tests {
         for (text, told) in [
             ("", "the table has no row of numbers"),
             ("K [N/m]\n", "the table has no row of numbers"),
-            ("5,20\n4,15\n", "the first line of the table names no numbers"),
+            ("5.5,20\n4,15\n", "the first line of the table names no numbers"),
             ("K [N/m],[mm]\n1,2\n", "column 2 of the table has no name"),
             ("K [N/mm2x]\n1\n", "column `K`: "),
             ("K,C\n1,2\n# no\n1\n", "line 4 has 1 fields, but the first line has 2"),

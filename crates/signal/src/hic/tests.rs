@@ -63,8 +63,11 @@ impl Blow {
     /// As a recorder has it.
     fn channel(&self, rate: f64) -> Channel {
         let count = (0.06 * rate).floor();
-        let times: Vec<f64> = (0_u32..).map(f64::from).take_while(|at| *at <= count).collect();
-        let times: Vec<f64> = times.iter().map(|at| at / rate).collect();
+        let (mut times, mut at) = (Vec::new(), 0.0);
+        while at <= count {
+            times.push(at / rate);
+            at += 1.0;
+        }
         let values = times.iter().map(|time| STANDARD_GRAVITY * self.value(*time)).collect();
         Channel::new("a", Dimension::ACCELERATION, times, values).unwrap()
     }

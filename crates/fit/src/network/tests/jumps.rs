@@ -128,7 +128,7 @@ fn a_second_touch_that_jumps_is_told_with_its_time() {
     let model = |_: usize, own: &[f64]| -> Result<Box<dyn Curve>, String> {
         Ok(Box::new(Twice(Kelvin([own[0], own[1]]))))
     };
-    let own = fit(&PAD.map(number), &[test.clone()], settings, &model).unwrap();
+    let own = fit(&PAD.map(number), std::slice::from_ref(&test), settings, &model).unwrap();
     let later = own.tests[0].later_jump.unwrap();
     assert!((later.time - late - AGAIN).abs() < STEP, "{later:?}");
     // Half of `c v`.
