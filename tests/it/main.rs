@@ -22,6 +22,7 @@ mod conversions;
 mod cost;
 mod curve_files;
 mod design;
+mod design_answers;
 mod designs;
 mod displaced_starts;
 mod docs;
