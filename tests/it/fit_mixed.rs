@@ -158,7 +158,7 @@ fn each_kind_of_test_gives_back_the_pad_and_so_do_all_together() {
 fn a_law_that_is_not_linear_is_fitted_to_a_curve_and_has_no_modulus() {
     let scene = "[values]\nA = \"20 kN/m\"\n[nodes]\nhead = { mass = \"4 kg\", velocity = \"2 m/s\" }\n\
          [elements]\npad = { between = [\"head\", \"ground\"], cubic-spring = { stiffness = \"A\", \
-         cubic = \"1e8 kg m^-2 s^-2\" } }\n[run]\nduration = \"60 ms\"\n";
+         cubic = \"1e8 N/m^3\" } }\n[run]\nduration = \"60 ms\"\n";
     let mut rows = "way [mm],F [N]\n".to_owned();
     for at in 0..=80 {
         let way = 2.5e-4 * f64::from(40 - (at - 40i32).abs());
@@ -168,8 +168,7 @@ fn a_law_that_is_not_linear_is_fitted_to_a_curve_and_has_no_modulus() {
     let (_folder, paths) =
         folder(&[("pad.toml", scene), ("curve.csv", &rows), ("dma.csv", &oscillation())]);
     let to = format!("{}:F=pad,rate=10 mm/min", paths[1]);
-    let varied =
-        ["--vary", "A=1..100 kN/m", "--vary", "pad.cubic-spring.cubic=1e7..1e10 kg m^-2 s^-2"];
+    let varied = ["--vary", "A=1..100 kN/m", "--vary", "pad.cubic-spring.cubic=1e7..1e10 N/m^3"];
     let answer = json(&[&["fit", &paths[0], "--to", &to, "--json"][..], &varied].concat());
     let parameters = answer["parameters"].as_object().unwrap();
     for (own, truth) in parameters.values().zip([12e3, 4e8]) {

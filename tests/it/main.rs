@@ -23,6 +23,7 @@ mod cost;
 mod curve_files;
 mod cushion;
 mod design;
+mod design_answers;
 mod designs;
 mod displaced_starts;
 mod docs;

@@ -183,6 +183,16 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     })
 }
 
+/// A probability, such as 95% or 0.95.
+pub(crate) fn probability(text: &str) -> Result<f64, String> {
+    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+    let is_number = quantity.dimension.is_none_or(|dimension| dimension == Dimension::NUMBER);
+    if is_number && (0.5..1.0).contains(&quantity.value) {
+        return Ok(quantity.value);
+    }
+    Err("it must be at least 50% and less than 100%, such as 95%".to_owned())
+}
+
 /// A channel frequency class, such as 180 or "CFC180".
 pub(crate) fn frequency_class(text: &str) -> Result<Cfc, String> {
     let text = text.trim();

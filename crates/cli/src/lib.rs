@@ -13,13 +13,16 @@ mod non_identifiable;
 mod numbers;
 mod operand;
 mod origin;
+mod out;
 mod output;
 mod part;
 mod progress;
 mod said;
+mod section;
 mod sketch;
 mod terminal;
 mod text;
+mod varied;
 mod verbs;
 
 use std::{io::ErrorKind, process::ExitCode};

@@ -42,7 +42,7 @@ pub use scene::{
     Posed, ReadOptions, RunSettings, Scene, pose, read, read_bytes, read_network, text_of_bytes,
 };
 pub use schema::schema;
-pub use sections::{FitWish, fit_wishes, parse_limits};
+pub use sections::{WISHING, Wish, parse_limits, wishes};
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use tables::{
     DataTable, Heading, LeftOut, Likewise, TableError, TableFault, table_text, text_cell,

@@ -32,7 +32,7 @@ use crate::{
 };
 
 /// The sections of a scene and of a file of models.
-const SECTIONS: [&str; 13] = [
+const SECTIONS: [&str; 14] = [
     "title",
     "values",
     "models",
@@ -46,6 +46,7 @@ const SECTIONS: [&str; 13] = [
     "accuracy",
     "run",
     "fit",
+    "design",
 ];
 
 /// Everything that a scene says, checked.

@@ -93,10 +93,27 @@ impl Dimension {
     }
 }
 
+/// What is a force, or one times a time, by powers of a length, such as the constant of a cubic spring: `N/m^3`.
+fn of_forces(dimension: Dimension) -> Option<String> {
+    let Dimension { mass: 1, length, time: -2..=-1, temperature: 0 } = dimension else {
+        return None;
+    };
+    let force = if dimension.time == -2 { "N" } else { "N s" };
+    let per = |power: i8| if power == 1 { "m".to_owned() } else { format!("m^{power}") };
+    Some(match length - 1 {
+        0 => force.to_owned(),
+        power @ 1.. => format!("{force} {}", per(power)),
+        power => format!("{force}/{}", per(-power)),
+    })
+}
+
 /// The SI unit of a dimension, with a name of its own or as a product of powers.
 pub fn si_unit(dimension: Dimension) -> String {
     if let Some((_, unit)) = dimension.named() {
         return unit.to_owned();
+    }
+    if let Some(unit) = of_forces(dimension) {
+        return unit;
     }
     let powers = [
         ("kg", dimension.mass),

@@ -144,6 +144,8 @@ fn values_are_written_in_handy_units() {
         (5e-8, Dimension::COMPLIANCE, 2, "50 nm/N"),
         (293.15, Dimension::TEMPERATURE, 5, "293.15 K"),
         (5.0, Dimension { temperature: -1, ..Dimension::new(1, -1, 0) }, 1, "5 kg m^-1 K^-1"),
+        (3e8, Dimension::new(1, -2, -2), 1, "3e8 N/m^3"),
+        (4.0, Dimension::new(1, 3, -1), 1, "4 N s m^2"),
         (383.0, Dimension::FORCE, 2, "380 N"),
         (f64::INFINITY, Dimension::FORCE, 4, "inf N"),
         (f64::NAN, Dimension::NUMBER, 4, "NaN"),

@@ -29,6 +29,11 @@ impl Curves {
         Self(Kind::Later(Box::new(maker), OnceLock::new()))
     }
 
+    /// Whether nobody has looked at them yet, so that they are not made.
+    pub(crate) fn are_to_come(&self) -> bool {
+        matches!(&self.0, Kind::Later(_, own) if own.get().is_none())
+    }
+
     /// The trajectory itself.
     pub fn into_trajectory(self) -> Trajectory {
         match self.0 {

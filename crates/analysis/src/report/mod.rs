@@ -2,6 +2,7 @@
 
 pub(crate) mod compression;
 pub(crate) mod curves;
+mod deepest;
 pub(crate) mod event;
 pub(crate) mod excerpt;
 pub(crate) mod judged;

@@ -17,6 +17,8 @@ pub enum Requirement {
     Limit(Limit),
     /// A pad, or a law that ends, is not pressed further than is known of it; its name or path.
     Known(String),
+    /// Another aim is at most this, in SI units; without a bound where it is infinite.
+    Ceiling(Aim, f64),
 }
 
 /// A requirement, and the test in which it has to be kept.
@@ -32,6 +34,8 @@ pub struct Required {
 pub(super) struct Evaluator<'p> {
     tests: &'p [&'p PoseAt<'p>],
     aim: &'p Aim,
+    /// Another aim, which may have a ceiling.
+    other: Option<&'p Aim>,
     pub(super) required: Vec<Required>,
 }
 
@@ -49,6 +53,11 @@ impl Requirement {
     pub(super) fn excess(&self, value: f64, slack: f64) -> f64 {
         match self {
             Self::Known(_) => value - 1.0 + slack,
+            Self::Ceiling(_, most) if most.is_infinite() => -1.0,
+            Self::Ceiling(_, most) => {
+                let size = if *most == 0.0 { 1.0 } else { most.abs() };
+                (value - most) / size + slack
+            }
             Self::Limit(limit) => {
                 let level = limit.bound.level();
                 let size = if level == 0.0 { 1.0 } else { level.abs() };
@@ -67,41 +76,56 @@ impl<'p> Evaluator<'p> {
     pub(super) fn new(
         tests: &'p [&'p PoseAt<'p>],
         aim: &'p Aim,
+        other: Option<&'p Aim>,
         at: &[f64],
     ) -> Result<Self, DesignError> {
-        let mut own = Self { tests, aim, required: Vec::new() };
+        let mut own = Self { tests, aim, other, required: Vec::new() };
         for test in 0..tests.len() {
             let point = own.point(test, at).map_err(DesignError::NotPosed)?;
             let limits = point.settings.limits.clone();
             let run = point.network.solve_with(&point.settings)?;
             let of_limits = limits.into_iter().map(Requirement::Limit);
             let known = reaches(&run).into_iter().map(|own| Requirement::Known(own.0));
-            own.required.extend(of_limits.chain(known).map(|what| Required { test, what }));
+            let ceiling = other.filter(|other| test == 0 || matches!(other, Aim::Measure(_)));
+            let ceiling = ceiling.map(|own| Requirement::Ceiling(own.clone(), f64::INFINITY));
+            let all = of_limits.chain(known).chain(ceiling);
+            own.required.extend(all.map(|what| Required { test, what }));
         }
         Ok(own)
     }
 
-    /// The scene of a test as it is differenced: measures that are wanted, without estimates of errors.
-    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, String> {
-        let mut point = (self.tests[test])(values)?;
-        if let Aim::Measure(key) = self.aim {
-            let found =
-                columns(&point, std::slice::from_ref(key)).map_err(|error| error.to_string())?;
-            point.settings.measures = found.1;
+    /// Bounds the other aim.
+    pub(super) fn set_ceiling(&mut self, most: f64) {
+        for own in &mut self.required {
+            if let Requirement::Ceiling(_, own) = &mut own.what {
+                *own = most;
+            }
         }
-        let settings = &mut point.settings;
-        settings.estimate = false;
-        settings.accuracy.neglect_below = None;
-        settings.rtol = settings.rtol.or(Some(RTOL));
+    }
+
+    /// The scene of a test with what is asked of it.
+    fn asked(&self, test: usize, values: &[f64]) -> Result<ScenePoint, DesignError> {
+        let mut point = (self.tests[test])(values).map_err(DesignError::NotPosed)?;
+        let keys: Vec<String> = [Some(self.aim), self.other]
+            .into_iter()
+            .flatten()
+            .filter_map(|own| if let Aim::Measure(key) = own { Some(key.clone()) } else { None })
+            .collect();
+        if !keys.is_empty() {
+            point.settings.measures = columns(&point, &keys)?.1;
+        }
         Ok(point)
+    }
+
+    /// The same as it is differenced: without estimates of errors.
+    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, String> {
+        let point = self.asked(test, values).map_err(|error| error.to_string())?;
+        Ok(differenced(point))
     }
 
     /// The run of a test with the errors that are asked for.
     pub(super) fn run(&self, test: usize, values: &[f64]) -> Result<RunReport, DesignError> {
-        let mut point = (self.tests[test])(values).map_err(DesignError::NotPosed)?;
-        if let Aim::Measure(key) = self.aim {
-            point.settings.measures = columns(&point, std::slice::from_ref(key))?.1;
-        }
+        let point = self.asked(test, values)?;
         let settings = SolveSettings { estimate: true, ..point.settings };
         Ok(point.network.solve_with(&settings)?)
     }
@@ -110,21 +134,10 @@ impl<'p> Evaluator<'p> {
     pub(super) fn at(&self, values: &[f64]) -> Result<Evaluated, String> {
         let mut own = Evaluated { aims: Vec::new(), values: Vec::new() };
         for test in 0..self.tests.len() {
-            let point = self.point(test, values)?;
-            let run = point.network.solve_with(&point.settings);
-            let run = run.map_err(|error| error.to_string())?;
-            let value = |key: &str| run.measure(key).and_then(|own| own.value).unwrap_or(f64::NAN);
-            let reached = reaches(&run);
-            let of_test = self.required.iter().filter(|own| own.test == test);
-            own.values.extend(of_test.map(|own| match &own.what {
-                Requirement::Limit(limit) => value(&limit.key),
-                Requirement::Known(name) => {
-                    let found = reached.iter().find(|own| own.0 == *name);
-                    found.map_or(f64::NAN, |own| own.1)
-                }
-            }));
+            let run = solved(&self.point(test, values)?)?;
+            own.values.extend(self.required_of(test, &run, values));
             if let Aim::Measure(key) = self.aim {
-                own.aims.push(value(key));
+                own.aims.push(value(&run, key));
             }
         }
         match self.aim {
@@ -133,6 +146,33 @@ impl<'p> Evaluator<'p> {
             Aim::Measure(_) => {}
         }
         Ok(own)
+    }
+
+    /// What is required of a test in a scene that was posed otherwise, such as with scatter.
+    pub(super) fn of_scattered(
+        &self,
+        test: usize,
+        point: ScenePoint,
+        values: &[f64],
+    ) -> Result<Vec<f64>, String> {
+        Ok(self.required_of(test, &solved(&differenced(point))?, values))
+    }
+
+    /// What each requirement of a test comes to in its run.
+    fn required_of(&self, test: usize, run: &RunReport, values: &[f64]) -> Vec<f64> {
+        let reached = reaches(run);
+        let of_test = self.required.iter().filter(|own| own.test == test);
+        let each = of_test.map(|own| match &own.what {
+            Requirement::Limit(limit) => value(run, &limit.key),
+            Requirement::Known(name) => {
+                let found = reached.iter().find(|own| own.0 == *name);
+                found.map_or(f64::NAN, |own| own.1)
+            }
+            Requirement::Ceiling(Aim::Measure(key), _) => value(run, key),
+            Requirement::Ceiling(Aim::Number(at), _) => values[*at],
+            Requirement::Ceiling(Aim::Given(own), _) => *own,
+        });
+        each.collect()
     }
 
     /// How many aims a design has.
@@ -148,12 +188,25 @@ impl<'p> Evaluator<'p> {
     }
 }
 
+fn differenced(mut point: ScenePoint) -> ScenePoint {
+    let settings = &mut point.settings;
+    settings.estimate = false;
+    settings.accuracy.neglect_below = None;
+    settings.rtol = settings.rtol.or(Some(RTOL));
+    point
+}
+
+fn solved(point: &ScenePoint) -> Result<RunReport, String> {
+    point.network.solve_with(&point.settings).map_err(|error| error.to_string())
+}
+
+fn value(run: &RunReport, key: &str) -> f64 {
+    run.measure(key).and_then(|own| own.value).unwrap_or(f64::NAN)
+}
+
 /// How far each pad, and each law that ends, is pressed in parts of its thickness or its last point.
 fn reaches(run: &RunReport) -> Vec<(String, f64)> {
-    let solution = run.solution();
-    let window = (0.0, run.trajectory.t_end);
-    let part =
-        |deformation: usize, whole: f64| solution.signal(deformation).maximum(window).value / whole;
+    let part = |deformation: usize, whole: f64| run.deepest(deformation) / whole;
     let mut all = Vec::new();
     for own in &run.assembly.connections {
         let pad = own.thickness.map(|whole| (own.name.clone(), part(own.deformation, whole)));

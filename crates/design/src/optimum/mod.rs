@@ -8,22 +8,33 @@
 //! with its errors, and moved inwards where these reach across a limit.
 
 mod aims;
+mod along;
 mod evaluate;
+mod found;
+mod front;
 mod programme;
+mod robust;
 mod search;
+mod settled;
 mod spread;
 
 #[cfg(test)]
 mod tests;
 
 use dashpot_analysis::{
-    RunError, RunReport,
+    RunError,
     sweep::{PoseAt, SweepError},
 };
 use thiserror::Error;
 
-pub use self::evaluate::{Required, Requirement};
-use self::{evaluate::Evaluator, search::Search, spread::Place};
+use self::search::Search;
+pub use self::{
+    along::along,
+    evaluate::{Required, Requirement},
+    found::{Borne, Design, Front, FrontPoint, Kept, Looked, Searched, Side, Slope},
+    front::{front, undominated},
+    robust::{PoseScattered, Scattered, robust},
+};
 
 /// A number that may vary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +56,28 @@ pub enum Aim {
     Measure(String),
     /// A number that does not vary here: whatever keeps everything is as good.
     Given(f64),
+}
+
+/// Numbers with a given sum, such as layers that share a thickness. The last one follows from the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Total {
+    /// The variables, by their positions; each is in one sum at most.
+    pub of: Vec<usize>,
+    /// Their sum, in SI units.
+    pub sum: f64,
+}
+
+/// What is searched.
+#[derive(Clone, Copy)]
+pub struct Problem<'p> {
+    /// What may vary.
+    pub variables: &'p [Variable],
+    /// Which of that has a given sum.
+    pub totals: &'p [Total],
+    /// What is made least.
+    pub aim: &'p Aim,
+    /// What poses the scene of each test.
+    pub tests: &'p [&'p PoseAt<'p>],
 }
 
 /// How much is looked at.
@@ -79,87 +112,13 @@ pub enum DesignError {
     /// A variable has no room.
     #[error("a number has no room between its bounds")]
     NoRoom,
+    /// A sum that its numbers cannot have.
+    #[error("their bounds allow sums from {low} to {high} in SI units alone")]
+    #[expect(missing_docs, reason = "the message says what the fields are")]
+    NoSum { low: f64, high: f64 },
     /// No design could be solved.
     #[error("no design between the bounds can be solved: {0}")]
     Nothing(String),
-}
-
-/// What a requirement comes to in a design.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Kept {
-    /// The requirement.
-    pub required: Required,
-    /// The measure in SI units, or the part of what is known to which the pad or law is pressed.
-    pub value: f64,
-    /// What is left, in parts of the bound; negative where it is exceeded.
-    pub margin: f64,
-    /// Whether it holds the design where it is.
-    pub is_active: bool,
-    /// By how much the aim would change per unit of the bound \[SI units\]; of what is active alone.
-    pub price: Option<f64>,
-}
-
-/// A design.
-#[derive(Debug)]
-pub struct Design {
-    /// The numbers, in SI units.
-    pub values: Vec<f64>,
-    /// The aim, in the worst test.
-    pub aim: f64,
-    /// What is required, test by test.
-    pub kept: Vec<Kept>,
-    /// For each number the change of the aim and of what is required, per unit of it.
-    pub slopes: Vec<Slope>,
-    /// Which numbers are at a bound.
-    pub at_bound: Vec<Option<Side>>,
-    /// Whether everything is kept; else it is the design that exceeds the least, in parts of the bounds.
-    pub is_feasible: bool,
-    /// How it was found.
-    pub search: Searched,
-    /// Its runs, one for each test, with their errors.
-    pub runs: Vec<RunReport>,
-}
-
-impl Design {
-    /// The least that is left to anything, in parts of its bound; negative where it is exceeded.
-    pub fn least_margin(&self) -> f64 {
-        self.kept.iter().map(|own| own.margin).fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// Derivatives with respect to one number.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Slope {
-    /// Of the aim in the worst test.
-    pub aim: f64,
-    /// Of each requirement's value.
-    pub values: Vec<f64>,
-}
-
-/// A bound of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The least value.
-    Low,
-    /// The largest.
-    High,
-}
-
-/// How a design was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Searched {
-    /// Designs that were spread over the bounds.
-    pub designs: usize,
-    /// Whether those are all points of a grid.
-    pub is_grid: bool,
-    /// Starts of the search …
-    pub starts: usize,
-    /// … and how many of them ended there.
-    pub agree: usize,
-    /// Designs of which everything is kept, among those that were spread.
-    pub feasible: usize,
-    /// Designs that were solved in all.
-    pub solved: usize,
 }
 
 /// Searches the best numbers within what is required in all tests; without variables it is the scene that is judged.
@@ -174,7 +133,7 @@ pub struct Searched {
 ///
 /// ```
 /// use dashpot_analysis::{Bound, Limit, SolveSettings, sweep::ScenePoint};
-/// use dashpot_design::optimum::{Aim, Effort, Variable, design};
+/// use dashpot_design::optimum::{Aim, Effort, Problem, Variable, design};
 /// use dashpot_network::{Network, Node, spring};
 ///
 /// let pose = |values: &[f64]| {
@@ -185,23 +144,48 @@ pub struct Searched {
 ///     settings.limits = vec![Limit::new("pad.peak-deformation", Bound::Max(0.02))];
 ///     Ok(ScenePoint { network, settings })
 /// };
-/// let variable = Variable { low: 1e3, high: 1e6, start: 1e5 };
-/// let found = design(&[variable], &Aim::Number(0), &[&pose], Effort::default())?;
+/// let variables = [Variable { low: 1e3, high: 1e6, start: 1e5 }];
+/// let (aim, tests) = (Aim::Number(0), [&pose as _]);
+/// let problem = Problem { variables: &variables, totals: &[], aim: &aim, tests: &tests };
+/// let found = design(&problem, Effort::default())?;
 /// assert!(found.is_feasible && (found.values[0] / 4e4 - 1.0).abs() < 1e-5);
 /// # Ok::<(), dashpot_design::optimum::DesignError>(())
 /// ```
-pub fn design(
-    variables: &[Variable],
-    aim: &Aim,
-    tests: &[&PoseAt<'_>],
-    effort: Effort,
-) -> Result<Design, DesignError> {
-    let is_one = |own: &Variable| own.low < own.high && own.low.is_finite() && own.high.is_finite();
-    if !variables.iter().all(is_one) {
-        return Err(DesignError::NoRoom);
+pub fn design(problem: &Problem<'_>, effort: Effort) -> Result<Design, DesignError> {
+    let search = Search::of(problem, None, effort)?;
+    let known = search.known(&problem.begin())?;
+    let slack = search.no_slack();
+    let (best, searched) = search.best(&known, &slack);
+    search.settled(best, searched, &known, slack)
+}
+
+impl<'p> Problem<'p> {
+    /// Where the scene has its numbers, within the bounds.
+    fn begin(&self) -> Vec<f64> {
+        self.variables.iter().map(|own| own.start.clamp(own.low, own.high)).collect()
     }
-    let places: Vec<Place> = variables.iter().map(Place::of).collect();
-    let begin: Vec<f64> = variables.iter().map(|own| own.start.clamp(own.low, own.high)).collect();
-    let evaluator = Evaluator::new(tests, aim, &begin)?;
-    Search::new(evaluator, places, effort).found(&begin)
+
+    /// Whether there is room between all bounds, and for each sum.
+    fn check(&self) -> Result<(), DesignError> {
+        let is_one =
+            |own: &Variable| own.low < own.high && own.low.is_finite() && own.high.is_finite();
+        if !self.variables.iter().all(is_one) {
+            return Err(DesignError::NoRoom);
+        }
+        for own in self.totals {
+            let of = |end: fn(&Variable) -> f64| -> f64 {
+                own.of.iter().map(|at| end(&self.variables[*at])).sum()
+            };
+            let (low, high) = (of(|own| own.low), of(|own| own.high));
+            if !(low..=high).contains(&own.sum) {
+                return Err(DesignError::NoSum { low, high });
+            }
+        }
+        Ok(())
+    }
+
+    /// The same with another aim.
+    fn with_aim(self, aim: &'p Aim) -> Self {
+        Self { aim, ..self }
+    }
 }

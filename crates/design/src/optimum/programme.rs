@@ -27,7 +27,7 @@ pub(super) struct Found {
 }
 
 /// Steps of one search.
-const MOST_STEPS: u64 = 200;
+const MOST_STEPS: u64 = 100;
 /// Change of the aim, of unknowns in parts of their bounds, and excess, at which a search ends.
 const ACCURACY: f64 = 1e-12;
 

@@ -1,39 +1,40 @@
-//! The way to the best design: spread designs, searches from the best of them, and a look at what was found.
+//! The way to the best design: spread designs, and searches from the best of them.
 
 use std::{
     sync::atomic::{AtomicUsize, Ordering},
     thread,
 };
 
-use dashpot_analysis::Judgement;
-use nalgebra::{DMatrix, DVector};
-
 use super::{
-    Design, DesignError, Effort, Kept, Requirement, Searched, Side, Slope,
+    Aim, DesignError, Effort, Looked, Problem, Required, Requirement, Searched,
     aims::{Direct, Epigraph},
     evaluate::{Evaluated, Evaluator},
     programme::{Found, least},
-    spread::{Place, spread},
+    spread::{Space, spread},
 };
 
 /// What a design may exceed a bound by, in parts of it, and still count as keeping it in a search.
-const ROOM: f64 = 1e-7;
-/// What is within this part of its bound, or of the room between bounds, is at it.
-const ACTIVE: f64 = 1e-4;
+pub(super) const ROOM: f64 = 1e-7;
+/// Bounds are drawn in by this part of them where errors or rounding may reach across.
+pub(super) const DRAWN_IN: f64 = 1e-6;
 /// Searches that end with aims this near each other have found one design.
-const SAME: f64 = 1e-5;
-/// Bounds are drawn in by this part of them, and by so many times the error of what is judged.
-const DRAWN_IN: f64 = 1e-6;
-const ERRORS: f64 = 2.0;
-/// How often a design is moved inwards.
-const MOVES: usize = 3;
+pub(super) const SAME: f64 = 1e-5;
 
 /// A search.
 pub(super) struct Search<'p> {
     pub(super) evaluator: Evaluator<'p>,
-    places: Vec<Place>,
+    pub(super) space: Space,
     effort: Effort,
-    solved: AtomicUsize,
+    pub(super) solved: AtomicUsize,
+}
+
+/// The designs that were spread.
+pub(super) struct Known {
+    /// Those that could be solved, and where the scene is.
+    all: Vec<Spread>,
+    /// All of them in their order.
+    pub(super) looked: Vec<Looked>,
+    is_grid: bool,
 }
 
 /// A design that was spread.
@@ -43,41 +44,96 @@ struct Spread {
 }
 
 impl<'p> Search<'p> {
-    pub(super) fn new(evaluator: Evaluator<'p>, places: Vec<Place>, effort: Effort) -> Self {
-        Self { evaluator, places, effort, solved: AtomicUsize::new(0) }
+    /// Of a problem, with another aim that may have a ceiling.
+    pub(super) fn of(
+        problem: &Problem<'p>,
+        other: Option<&'p Aim>,
+        effort: Effort,
+    ) -> Result<Self, DesignError> {
+        problem.check()?;
+        let space = Space::of(problem.variables, problem.totals);
+        let begin = space.values(&space.unknowns(&problem.begin()));
+        let evaluator = Evaluator::new(problem.tests, problem.aim, other, &begin)?;
+        Ok(Self { evaluator, space, effort, solved: AtomicUsize::new(0) })
     }
 
-    /// The best design.
-    pub(super) fn found(self, begin: &[f64]) -> Result<Design, DesignError> {
-        let none = vec![0.0; self.evaluator.required.len()];
-        let (mut spread, is_grid) = spread(self.places.len(), self.effort.designs);
-        let designs = spread.len();
-        let places = self.places.iter().zip(begin);
-        spread.push(places.map(|(place, value)| place.place(*value)).collect());
-        let (mut known, why) = self.solved(&spread);
-        if known.is_empty() {
+    /// By how much requirements are drawn in at least: what is known of pads and laws is not left by rounding either.
+    pub(super) fn no_slack(&self) -> Vec<f64> {
+        let is_known = |own: &Required| matches!(own.what, Requirement::Known(_));
+        let all = self.evaluator.required.iter();
+        all.map(|own| if is_known(own) { DRAWN_IN } else { 0.0 }).collect()
+    }
+
+    /// Solves designs spread over the bounds, and where the scene begins.
+    pub(super) fn known(&self, begin: &[f64]) -> Result<Known, DesignError> {
+        let begin = self.space.unknowns(begin);
+        let (mut places, is_grid) = spread(begin.len(), self.effort.designs);
+        let count = places.len();
+        places.push(begin);
+        let (mut looked, found) = self.looked(&places);
+        looked.truncate(count);
+        let why = found.iter().find_map(|own| own.as_ref().err().cloned());
+        let all = places.into_iter().zip(found).filter_map(|(place, found)| {
+            let found = found.ok()?;
+            let is_whole = found.aims.iter().chain(&found.values).all(|own| own.is_finite());
+            is_whole.then_some(Spread { place, found })
+        });
+        let all: Vec<Spread> = all.collect();
+        if all.is_empty() {
             return Err(DesignError::Nothing(why.unwrap_or_default()));
         }
-        let feasible = known.iter().filter(|own| self.excess(&own.found, &none) <= ROOM).count();
-        // Those that keep everything first, by their aim; then by how much they exceed.
-        let rank = |own: &Spread| {
-            let excess = self.excess(&own.found, &none).max(ROOM);
-            (excess, worst(&own.found.aims))
+        Ok(Known { all, looked, is_grid })
+    }
+
+    /// What designs come to.
+    pub(super) fn looked(
+        &self,
+        places: &[Vec<f64>],
+    ) -> (Vec<Looked>, Vec<Result<Evaluated, String>>) {
+        let found = self.solved(places);
+        let none = self.no_slack();
+        let one = |(place, found): (&Vec<f64>, &Result<Evaluated, String>)| {
+            let values = self.space.values(place);
+            let (aim, required, excess) = match found {
+                Ok(own) => (worst(&own.aims), own.values.clone(), self.excess(own, &none)),
+                Err(_) => (f64::NAN, Vec::new(), f64::NAN),
+            };
+            Looked { values, aim, required, excess }
         };
-        known.sort_by(|one, other| {
+        (places.iter().zip(&found).map(one).collect(), found)
+    }
+
+    /// The best design from these, where every requirement is drawn in by its slack.
+    pub(super) fn best(&self, known: &Known, slack: &[f64]) -> (Found, Searched) {
+        self.best_from(known, slack, &[])
+    }
+
+    /// The same with further starts.
+    pub(super) fn best_from(
+        &self,
+        known: &Known,
+        slack: &[f64],
+        further: &[Vec<f64>],
+    ) -> (Found, Searched) {
+        // Those that keep everything first, by their aim; then by how much they exceed.
+        let rank =
+            |own: &Spread| (self.excess(&own.found, slack).max(ROOM), worst(&own.found.aims));
+        let mut ranked: Vec<&Spread> = known.all.iter().collect();
+        ranked.sort_by(|one, other| {
             let (one, other) = (rank(one), rank(other));
             one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
         });
-        let starts: Vec<Vec<f64>> = self.starts(&known);
-        let ends: Vec<Found> = starts.iter().filter_map(|own| self.from(own, &none)).collect();
+        let starts: Vec<Vec<f64>> = further.iter().cloned().chain(self.starts(&ranked)).collect();
+        let ends: Vec<Found> = starts.iter().filter_map(|own| self.from(own, slack)).collect();
         let better = |one: &Found, other: &Found| {
             let key = |own: &Found| (own.values[1].max(ROOM), own.values[0]);
             key(one).0.total_cmp(&key(other).0).then(key(one).1.total_cmp(&key(other).1))
         };
         let sought = ends.iter().min_by(|one, other| better(one, other)).cloned();
+        let first = ranked[0];
         let of_spread = Found {
-            unknowns: known[0].place.clone(),
-            values: vec![worst(&known[0].found.aims), self.excess(&known[0].found, &none)],
+            unknowns: first.place.clone(),
+            values: vec![worst(&first.found.aims), self.excess(&first.found, slack)],
         };
         let best = sought.filter(|own| better(own, &of_spread).is_le()).unwrap_or(of_spread);
         let alike = |own: &&Found| {
@@ -85,127 +141,20 @@ impl<'p> Search<'p> {
                 && (own.values[0] - best.values[0]).abs() <= SAME * best.values[0].abs()
         };
         let agree = ends.iter().filter(alike).count();
-        let searched =
-            Searched { designs, is_grid, starts: starts.len(), agree, feasible, solved: 0 };
-        self.settled(best, searched)
+        let starts = starts.len();
+        let searched = Searched { starts, agree, ..self.looked_at(known, slack) };
+        (best, searched)
     }
 
-    /// Moves a design inwards until its errors do not reach across what it has to keep, and tells of it.
-    fn settled(self, mut best: Found, mut searched: Searched) -> Result<Design, DesignError> {
-        let required = self.evaluator.required.len();
-        let mut slack = vec![0.0; required];
-        let is_feasible = best.values[1] <= ROOM;
-        let mut runs = Vec::new();
-        for at in 0..=MOVES {
-            let values = self.values(&best.unknowns);
-            let all = 0..self.evaluator.tests();
-            runs =
-                all.map(|test| self.evaluator.run(test, &values)).collect::<Result<Vec<_>, _>>()?;
-            if !is_feasible || at == MOVES {
-                break;
-            }
-            let mut is_open = false;
-            for (own, slack) in self.evaluator.required.iter().zip(&mut slack) {
-                let Requirement::Limit(limit) = &own.what else { continue };
-                let judged = runs[own.test].judged();
-                let judged = judged.iter().find(|judged| judged.limit.is_same(limit));
-                let Some(judged) = judged.filter(|own| own.judgement != Judgement::Pass) else {
-                    continue;
-                };
-                let size = limit.bound.level().abs().max(f64::MIN_POSITIVE);
-                let error = judged.error().filter(|own| own.is_finite()).unwrap_or(0.0);
-                *slack += ERRORS * error / size + DRAWN_IN;
-                is_open = true;
-            }
-            if !is_open {
-                break;
-            }
-            let Some(moved) = self.from(&best.unknowns, &slack) else { break };
-            best = Found { values: vec![moved.values[0], moved.values[1]], ..moved };
-        }
-        searched.solved = self.solved.load(Ordering::Relaxed);
-        self.told(&best, (searched, is_feasible), runs)
+    /// What is told of the designs that were spread.
+    pub(super) fn looked_at(&self, known: &Known, slack: &[f64]) -> Searched {
+        let feasible = known.all.iter().filter(|own| self.excess(&own.found, slack) <= ROOM);
+        let (feasible, designs, is_grid) = (feasible.count(), known.looked.len(), known.is_grid);
+        Searched { designs, is_grid, starts: 0, agree: 0, feasible, solved: 0 }
     }
 
-    fn told(
-        self,
-        best: &Found,
-        (searched, is_feasible): (Searched, bool),
-        runs: Vec<dashpot_analysis::RunReport>,
-    ) -> Result<Design, DesignError> {
-        let values = self.values(&best.unknowns);
-        let found = self.evaluator.at(&values).map_err(DesignError::NotPosed)?;
-        let slopes = self.slopes_of(&best.unknowns, &found);
-        let excess = |at: usize| self.evaluator.required[at].what.excess(found.values[at], 0.0);
-        let at_bound: Vec<Option<Side>> = best
-            .unknowns
-            .iter()
-            .map(|own| match *own {
-                own if own <= ACTIVE => Some(Side::Low),
-                own if own >= 1.0 - ACTIVE => Some(Side::High),
-                _ => None,
-            })
-            .collect();
-        let active: Vec<usize> =
-            (0..found.values.len()).filter(|at| excess(*at) > -ACTIVE).collect();
-        let prices = self.prices(&slopes, &active, &at_bound);
-        let kept = self.evaluator.required.iter().enumerate().map(|(at, required)| {
-            let place = active.iter().position(|own| *own == at);
-            let price = place.filter(|_| is_feasible).map(|place| prices[place]);
-            Kept {
-                required: required.clone(),
-                value: found.values[at],
-                margin: -excess(at),
-                is_active: place.is_some(),
-                price,
-            }
-        });
-        let kept = kept.collect();
-        let aim = worst(&found.aims);
-        Ok(Design { values, aim, kept, slopes, at_bound, is_feasible, search: searched, runs })
-    }
-
-    /// Derivatives in SI units by numbers in SI units.
-    fn slopes_of(&self, unknowns: &[f64], found: &Evaluated) -> Vec<Slope> {
-        let at_worst = (0..found.aims.len())
-            .max_by(|one, other| found.aims[*one].total_cmp(&found.aims[*other]))
-            .unwrap_or(0);
-        let one = |at: usize| {
-            let [below, above] = self.beside(unknowns, at);
-            let width = self.places[at].value(above.0) - self.places[at].value(below.0);
-            let sides = below.1.zip(above.1);
-            let nothing = || Slope { aim: f64::NAN, values: vec![f64::NAN; found.values.len()] };
-            sides.map_or_else(nothing, |(below, above)| {
-                let slope = |one: f64, other: f64| (other - one) / width;
-                let values = below.values.iter().zip(&above.values);
-                Slope {
-                    aim: slope(below.aims[at_worst], above.aims[at_worst]),
-                    values: values.map(|(one, other)| slope(*one, *other)).collect(),
-                }
-            })
-        };
-        (0..unknowns.len()).map(one).collect()
-    }
-
-    /// By how much the aim changes with the bound of each active requirement: multipliers of Lagrange, from the
-    /// numbers that are not at a bound themselves.
-    fn prices(&self, slopes: &[Slope], active: &[usize], at_bound: &[Option<Side>]) -> Vec<f64> {
-        let free: Vec<usize> = (0..slopes.len()).filter(|at| at_bound[*at].is_none()).collect();
-        if free.is_empty() || active.is_empty() {
-            return vec![f64::NAN; active.len()];
-        }
-        let unit = |at: usize| self.places[free[at]].room();
-        let matrix = DMatrix::from_fn(free.len(), active.len(), |row, column| {
-            slopes[free[row]].values[active[column]] * unit(row)
-        });
-        let right = DVector::from_fn(free.len(), |row, _| slopes[free[row]].aim * unit(row));
-        let is_finite = matrix.iter().chain(right.iter()).all(|own| own.is_finite());
-        let solved = is_finite.then(|| matrix.svd(true, true).solve(&right, 1e-9).ok()).flatten();
-        solved.map_or_else(|| vec![f64::NAN; active.len()], |own| own.iter().copied().collect())
-    }
-
-    fn values(&self, unknowns: &[f64]) -> Vec<f64> {
-        unknowns.iter().zip(&self.places).map(|(own, place)| place.value(*own)).collect()
+    pub(super) fn values(&self, unknowns: &[f64]) -> Vec<f64> {
+        self.space.values(unknowns)
     }
 
     pub(super) fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
@@ -214,8 +163,8 @@ impl<'p> Search<'p> {
     }
 
     /// The designs beside one along a number, with their places, within the bounds.
-    fn beside(&self, unknowns: &[f64], at: usize) -> [(f64, Option<Evaluated>); 2] {
-        let step = self.places[at].step();
+    pub(super) fn beside(&self, unknowns: &[f64], at: usize) -> [(f64, Option<Evaluated>); 2] {
+        let step = self.space.step(at);
         [-step, step].map(|step| {
             let mut beside = unknowns.to_vec();
             beside[at] = (beside[at] + step).clamp(0.0, 1.0);
@@ -233,34 +182,32 @@ impl<'p> Search<'p> {
         all.map(|((own, value), slack)| own.what.excess(*value, *slack)).collect()
     }
 
-    /// Solves designs by all threads, in their order; those that could be, and why the first of the others could not.
-    fn solved(&self, spread: &[Vec<f64>]) -> (Vec<Spread>, Option<String>) {
-        let threads = self.effort.threads.max(1);
-        let each = spread.len().div_ceil(threads).max(1);
-        let work = |part: &[Vec<f64>]| {
-            let one = |place: &Vec<f64>| self.evaluator.at(&self.values(place));
-            part.iter().map(one).collect::<Vec<_>>()
-        };
-        let found = thread::scope(|scope| {
-            let parts: Vec<_> =
-                spread.chunks(each).map(|part| scope.spawn(move || work(part))).collect();
-            parts.into_iter().flat_map(|own| own.join().unwrap_or_default()).collect::<Vec<_>>()
-        });
-        self.solved.fetch_add(spread.len(), Ordering::Relaxed);
-        let why = found.iter().find_map(|own| own.as_ref().err().cloned());
-        let known = spread.iter().zip(found).filter_map(|(place, found)| {
-            let found = found.ok()?;
-            let is_whole = found.aims.iter().chain(&found.values).all(|own| own.is_finite());
-            is_whole.then(|| Spread { place: place.clone(), found })
-        });
-        (known.collect(), why)
+    /// Solves designs by all threads, in their order.
+    fn solved(&self, places: &[Vec<f64>]) -> Vec<Result<Evaluated, String>> {
+        self.solved.fetch_add(places.len(), Ordering::Relaxed);
+        self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)))
+    }
+
+    /// Does the same to all of these by all threads, in their order.
+    pub(super) fn shared<T: Sync, U: Send>(
+        &self,
+        all: &[T],
+        one: &(dyn Fn(&T) -> U + Sync),
+    ) -> Vec<U> {
+        let each = all.len().div_ceil(self.effort.threads.max(1)).max(1);
+        thread::scope(|scope| {
+            let work = |part| scope.spawn(move || <[T]>::iter(part).map(one).collect::<Vec<_>>());
+            let parts: Vec<_> = all.chunks(each).map(work).collect();
+            parts.into_iter().flat_map(|own| own.join().unwrap_or_default()).collect()
+        })
     }
 
     /// The best designs that are not beside each other.
-    fn starts(&self, known: &[Spread]) -> Vec<Vec<f64>> {
-        let apart = 1.5 / (self.effort.designs as f64).powf(1.0 / self.places.len().max(1) as f64);
+    fn starts(&self, ranked: &[&Spread]) -> Vec<Vec<f64>> {
+        let numbers = ranked.first().map_or(0, |own| own.place.len()).max(1);
+        let apart = 1.5 / (self.effort.designs as f64).powf(1.0 / numbers as f64);
         let mut starts: Vec<Vec<f64>> = Vec::new();
-        for own in known {
+        for own in ranked {
             let is_near = |other: &Vec<f64>| {
                 let each = own.place.iter().zip(other);
                 each.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max) < apart
@@ -273,7 +220,7 @@ impl<'p> Search<'p> {
     }
 
     /// The best design from a start, its aim and largest excess; what exceeds is brought back first.
-    fn from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
+    pub(super) fn from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
         let mut from = start.to_vec();
         if from.is_empty() {
             return None;

@@ -5,6 +5,7 @@ mod bar;
 mod colours;
 mod contours;
 mod lines;
+mod markers;
 mod regions;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,7 @@ use self::{
     texts::{Texts, text, upright},
 };
 use crate::{
-    Scale,
+    Marker, Scale,
     axis::{Axis, Frame},
     chart::Heading,
     text_metrics::{clip_width, escape, one_line, text_width},
@@ -85,6 +86,8 @@ pub struct Map {
     pub values: Vec<f64>,
     /// Lines on which another quantity has a certain value.
     pub limits: Vec<MapLimit>,
+    /// Points that carry a text, such as the best design.
+    pub markers: Vec<Marker>,
 }
 
 /// A line on which a quantity has a certain value, such as that of a padding pressed to nothing.
@@ -184,6 +187,7 @@ impl Map {
             self.draw_undecided(&mut own, &frame, limit, (&pattern, at));
             draw_limit(&mut own, of_limit);
         }
+        self.put_markers(&frame, &mut texts, &lines.concat().concat());
         for (at, limit) in self.limits.iter().enumerate() {
             let others = lines.iter().enumerate().filter(|other| other.0 != at);
             let others: Vec<_> =
@@ -192,6 +196,7 @@ impl Map {
         }
         self.draw_lines(&mut svg, &frame, (&field, &shares, &colours), &mut texts);
         svg += &own;
+        self.draw_markers(&mut svg, &frame);
         texts.draw(&mut svg);
         self.draw_axes(&mut svg, &frame, &heading, sheet.width);
         bar::draw(&mut svg, &frame, &colours, &self.value_label);

@@ -75,20 +75,28 @@ pub fn schema() -> Value {
             "limits": limits(),
             "accuracy": accuracy(),
             "run": run(),
-            "fit": {
-                "description": "options of `dashpot fit` by their names, without dashes; those of the command stand above them",
-                "type": "object",
-                "additionalProperties": {
-                    "anyOf": [
-                        { "type": ["string", "number", "boolean"] },
-                        { "type": "array", "items": { "type": "string" } },
-                    ],
-                },
-            },
+            "fit": options_of("fit"),
+            "design": options_of("design"),
         },
         "required": ["elements", "run"],
         "additionalProperties": false,
         "$defs": definitions(),
+    })
+}
+
+/// The section of a verb.
+fn options_of(verb: &str) -> Value {
+    json!({
+        "description": format!(
+            "options of `dashpot {verb}` by their names, without dashes; those of the command stand above them"
+        ),
+        "type": "object",
+        "additionalProperties": {
+            "anyOf": [
+                { "type": ["string", "number", "boolean"] },
+                { "type": "array", "items": { "type": "string" } },
+            ],
+        },
     })
 }
 

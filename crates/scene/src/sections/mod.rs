@@ -4,24 +4,24 @@ mod accuracy;
 mod duration;
 mod effects;
 mod elements;
-mod fit;
 mod limits;
 mod measures;
 mod nodes;
 mod of_measures;
 mod run;
+mod wishes;
 
 pub(crate) use accuracy::read_accuracy;
 pub(crate) use duration::find_duration;
 pub(crate) use effects::read_effects;
 pub(crate) use elements::{ELEMENT_KEYS, read_elements};
-pub use fit::{FitWish, fit_wishes};
 pub use limits::parse_limits;
 pub(crate) use limits::{read_limits, unit_wanted};
 pub(crate) use measures::{Targets, read_measures};
 pub(crate) use nodes::{read_loads, read_nodes};
 pub use run::RunSettings;
 pub(crate) use run::{check_stops, read_run};
+pub use wishes::{WISHING, Wish, wishes};
 
 use std::collections::HashMap;
 

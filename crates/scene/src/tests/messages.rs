@@ -47,7 +47,7 @@ error: unknown key `titel` in the scene
 1 | titel = "Head on a pad"
   | ^^^^^
   |
-  = help: did you mean `title`? known keys: title, values, models, materials, nodes, elements, effects, loads, measures, limits, accuracy, run, fit
+  = help: did you mean `title`? known keys: title, values, models, materials, nodes, elements, effects, loads, measures, limits, accuracy, run, fit, design
 
 error: `NM` is not a known unit
  --> scene.toml:4:5

@@ -1,17 +1,14 @@
-//! What a design is asked for: numbers with bounds, choices, tests, and what is made least.
+//! What a design is asked for: numbers with bounds and sums, choices, tests, and what is made least.
 
-use dashpot_analysis::{
-    Limit,
-    sweep::{PoseAt, ScenePoint},
-};
-use dashpot_design::optimum::{Aim, Variable};
-use dashpot_scene::{
-    Diagnostic, Scene, Tunables, Variation, pose,
-    units::{parse_quantity, si_unit},
-};
+use dashpot_design::optimum::{Aim, Total, Variable};
+use dashpot_scene::{Scene, Tunables, Variation, units::Dimension};
 
-use super::DesignArguments;
-use crate::{args::Variant, error::CliError, input::Input, output::list};
+use super::{
+    DesignArguments,
+    among::{Among, Choice, Taken},
+    total,
+};
+use crate::{args::Variant, error::CliError, input::Input, output::list, varied::Varied};
 
 /// What `--solve-for` looks at, in parts of what the scene has.
 const AROUND: [f64; 2] = [0.1, 10.0];
@@ -21,30 +18,18 @@ const MOST: usize = 1000;
 /// What is asked for.
 #[derive(Debug, Clone)]
 pub(super) struct Asked {
-    tunables: Tunables,
+    pub(super) tunables: Tunables,
     /// What varies between bounds.
-    pub(super) numbers: Vec<Between>,
+    pub(super) numbers: Vec<Varied>,
+    /// Which of that has a given sum.
+    pub(super) totals: Vec<Total>,
     /// What is chosen among words and steps.
     pub(super) among: Vec<Among>,
     pub(super) least: Least,
+    /// What is made least besides.
+    pub(super) and: Option<Least>,
+    /// The tests; one without a name is the scene as it is.
     pub(super) tests: Vec<Variant>,
-}
-
-/// A number with bounds, in SI units.
-#[derive(Debug, Clone)]
-pub(super) struct Between {
-    pub(super) name: String,
-    pub(super) si: String,
-    pub(super) bounds: [f64; 2],
-    start: f64,
-    at: usize,
-}
-
-/// A number or word with what it may be.
-#[derive(Debug, Clone)]
-pub(super) struct Among {
-    pub(super) variation: Variation,
-    at: usize,
 }
 
 /// What is made least.
@@ -58,15 +43,20 @@ pub(super) enum Least {
     Measure(String),
 }
 
-/// Which of its values everything takes that is chosen.
-pub(super) type Choice = Vec<usize>;
-
 impl Least {
     pub(super) fn name<'a>(&'a self, asked: &'a Asked) -> &'a str {
         match self {
             Self::Number(at) => &asked.numbers[*at].name,
-            Self::Step(at) => &asked.among[*at].variation.name,
+            Self::Step(at) => &asked.among[*at].names[0],
             Self::Measure(key) => key,
+        }
+    }
+
+    pub(super) fn aim(&self, asked: &Asked, choice: &Choice) -> Aim {
+        match self {
+            Self::Number(at) => Aim::Number(*at),
+            Self::Step(at) => Aim::Given(asked.among[*at].value(choice[*at])),
+            Self::Measure(key) => Aim::Measure(key.clone()),
         }
     }
 }
@@ -78,56 +68,112 @@ impl Asked {
         input: &Input,
     ) -> Result<Self, CliError> {
         let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
-        let fault = |flag| move |fault| CliError::Tunable { flag, fault };
-        let (mut numbers, mut among) = (Vec::new(), Vec::new());
-        if let Some(name) = &arguments.solve_for {
-            let at = tunables.find(name).map_err(fault("--solve-for"))?;
-            let start = tunables.all()[at].value;
-            let bounds = AROUND.map(|own| own * start);
-            numbers.push(Between::of(&tunables, (name, at), bounds, "--solve-for")?);
-        }
-        let parsed = arguments.vary.iter().map(|own| Variation::parse(own));
-        let mut variations = parsed.collect::<Result<Vec<_>, _>>()?;
-        let matched = tunables.matched(&mut variations).map_err(fault("--vary"))?;
-        for (own, at) in variations.into_iter().zip(matched) {
-            if own.is_range {
-                let bounds = [own.values[0], own.values[own.len() - 1]];
-                numbers.push(Between::of(&tunables, (&own.name, at), bounds, "--vary")?);
-            } else {
-                among.push(Among { variation: own, at });
-            }
-        }
-        let least = match (&arguments.least, &arguments.solve_for) {
-            (Some(name), _) => {
-                let number = numbers.iter().position(|own| own.name == *name);
-                let is_step =
-                    |own: &Among| own.variation.name == *name && !own.variation.is_of_words();
-                let step = among.iter().position(is_step);
-                match (number, step) {
-                    (Some(at), _) => Least::Number(at),
-                    (None, Some(at)) => Least::Step(at),
-                    (None, None) if tunables.find(name).is_ok() => {
-                        let reason = format!(
-                            "`{name}` does not vary: give its bounds, `--vary \"{name}=…\"`"
-                        );
-                        return Err(CliError::WrongSetting { name: "--least".to_owned(), reason });
-                    }
-                    (None, None) => Least::Measure(name.clone()),
-                }
-            }
-            (None, _) => Least::Number(0),
-        };
         let plain = || Variant { name: String::new(), set: Vec::new() };
         let tests = if arguments.test.is_empty() { vec![plain()] } else { arguments.test.clone() };
-        let asked = Self { tunables, numbers, among, least, tests };
+        let (numbers, among) = (Vec::new(), Vec::new());
+        let (totals, least, and) = (Vec::new(), Least::Number(0), None);
+        let mut asked = Self { tunables, numbers, totals, among, least, and, tests };
+        if let Some(name) = &arguments.solve_for {
+            asked.solve_for(name)?;
+        }
+        asked.vary(&arguments.vary)?;
+        asked.totals = total::totals(&arguments.total, &asked.numbers)?;
+        asked.check_set(&arguments.scene.values.set)?;
+        if let Some(name) = &arguments.least {
+            asked.least = asked.least_of("--least", name)?;
+        }
+        asked.and = arguments.and.as_ref().map(|own| asked.least_of("--and", own)).transpose()?;
+        let and = asked.and.as_ref();
+        if let Some(name) =
+            and.map(|own| own.name(&asked)).filter(|own| *own == asked.least.name(&asked))
+        {
+            let reason = format!("`{name}` is made least already");
+            return Err(CliError::WrongSetting { name: "--and".to_owned(), reason });
+        }
         if asked.count() > MOST {
             return Err(CliError::TooManyPoints { most: MOST });
         }
         Ok(asked)
     }
 
+    fn solve_for(&mut self, name: &str) -> Result<(), CliError> {
+        let flag = "--solve-for";
+        let at = self.tunables.find(name).map_err(|fault| CliError::Tunable { flag, fault })?;
+        let start = self.tunables.all()[at].value;
+        self.add((name, at), AROUND.map(|own| own * start), ("", None), flag)
+    }
+
+    /// Numbers with bounds, and choices.
+    fn vary(&mut self, texts: &[String]) -> Result<(), CliError> {
+        let fault = |fault| CliError::Tunable { flag: "--vary", fault };
+        let (mut variations, mut groups) = (Vec::new(), Vec::new());
+        for text in texts {
+            let own = Among::parse(text)?;
+            groups.push(own.len());
+            variations.extend(own);
+        }
+        let matched = self.tunables.matched(&mut variations).map_err(fault)?;
+        let mut each = variations.into_iter().zip(matched);
+        for count in groups {
+            let group: Vec<(Variation, usize)> = list(each.by_ref().take(count));
+            match &group[..] {
+                [(own, at)] if own.is_range => {
+                    let bounds = [own.values[0], own.values[own.len() - 1]];
+                    let of_command = (&*own.unit, own.dimension);
+                    self.add((&own.name, *at), bounds, of_command, "--vary")?;
+                }
+                _ => self.among.push(Among::of(group)?),
+            }
+        }
+        Ok(())
+    }
+
+    fn add(
+        &mut self,
+        named: (&str, usize),
+        bounds: [f64; 2],
+        of_command: (&str, Option<Dimension>),
+        flag: &str,
+    ) -> Result<(), CliError> {
+        let [low, high] = bounds;
+        if !(low < high && low.is_finite() && high.is_finite()) {
+            let reason = format!("`{}` has no room between {low} and {high}", named.0);
+            return Err(CliError::WrongSetting { name: flag.to_owned(), reason });
+        }
+        self.numbers.push(Varied::of(&self.tunables, named, bounds, of_command));
+        Ok(())
+    }
+
+    /// What is set, by the command or a test, stands above what is sought: it cannot be both.
+    fn check_set(&self, set: &[(String, String)]) -> Result<(), CliError> {
+        let sought = self.numbers.iter().filter_map(|own| own.at);
+        let sought: Vec<usize> = list(sought.chain(self.among.iter().flat_map(Among::places)));
+        let is_sought =
+            |name: &str| self.tunables.anything(name).is_ok_and(|own| sought.contains(&own));
+        let all = set.iter().chain(self.tests.iter().flat_map(|own| &own.set));
+        match all.map(|own| &own.0).find(|own| is_sought(own)) {
+            Some(name) => Err(CliError::SetAndVaried { name: name.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    fn least_of(&self, flag: &str, name: &str) -> Result<Least, CliError> {
+        let number = self.numbers.iter().position(|own| own.name == name);
+        let step = self.among.iter().position(|own| own.is_number(name));
+        match (number, step) {
+            (Some(at), _) => Ok(Least::Number(at)),
+            (None, Some(at)) => Ok(Least::Step(at)),
+            (None, None) if self.tunables.find(name).is_ok() => {
+                let reason =
+                    format!("`{name}` does not vary: give its bounds, `--vary \"{name}=…\"`");
+                Err(CliError::WrongSetting { name: flag.to_owned(), reason })
+            }
+            (None, None) => Ok(Least::Measure(name.to_owned())),
+        }
+    }
+
     fn count(&self) -> usize {
-        self.among.iter().map(|own| own.variation.len()).fold(1, usize::saturating_mul)
+        self.among.iter().map(Among::len).fold(1, usize::saturating_mul)
     }
 
     /// All choices of words and steps.
@@ -135,98 +181,25 @@ impl Asked {
         let mut all = vec![Vec::new()];
         for own in &self.among {
             let longer = |choice: &Choice| {
-                (0..own.variation.len()).map(|at| [&choice[..], &[at]].concat()).collect::<Vec<_>>()
+                (0..own.len()).map(|at| [&choice[..], &[at]].concat()).collect::<Vec<_>>()
             };
             all = all.iter().flat_map(longer).collect();
         }
         all
     }
 
-    /// What a choice takes: names, values in SI units, and what is written.
-    pub(super) fn chosen(&self, choice: &Choice) -> Vec<(String, Option<f64>, Option<String>)> {
-        let one = |(own, at): (&Among, &usize)| {
-            let Variation { name, values, words, .. } = &own.variation;
-            let is_word = own.variation.is_of_words();
-            let value = if is_word { None } else { values.get(*at).copied() };
-            let word =
-                if is_word { words.get(*at).cloned() } else { Some(own.variation.text(*at)) };
-            (name.clone(), value, word)
-        };
-        self.among.iter().zip(choice).map(one).collect()
+    /// What a choice takes, name by name.
+    pub(super) fn chosen<'a>(
+        &'a self,
+        choice: &'a Choice,
+    ) -> impl Iterator<Item = (&'a str, &'a Taken)> {
+        let each = self.among.iter().zip(choice);
+        each.flat_map(|(own, at)| own.names.iter().map(String::as_str).zip(&own.options[*at]))
     }
 
     pub(super) fn variables(&self) -> Vec<Variable> {
         let one =
-            |own: &Between| Variable { low: own.bounds[0], high: own.bounds[1], start: own.start };
+            |own: &Varied| Variable { low: own.bounds[0], high: own.bounds[1], start: own.start };
         self.numbers.iter().map(one).collect()
-    }
-
-    pub(super) fn aim(&self, choice: &Choice) -> Aim {
-        match &self.least {
-            Least::Number(at) => Aim::Number(*at),
-            Least::Step(at) => Aim::Given(self.among[*at].variation.values[choice[*at]]),
-            Least::Measure(key) => Aim::Measure(key.clone()),
-        }
-    }
-}
-
-impl Between {
-    fn of(
-        tunables: &Tunables,
-        (name, at): (&str, usize),
-        [low, high]: [f64; 2],
-        flag: &str,
-    ) -> Result<Self, CliError> {
-        let number = &tunables.all()[at];
-        if !(low < high && low.is_finite() && high.is_finite()) {
-            let reason = format!("`{name}` has no room between {low} and {high}");
-            return Err(CliError::WrongSetting { name: flag.to_owned(), reason });
-        }
-        let si = number.dimension.map_or(String::new(), si_unit);
-        let one = parse_quantity(&format!("1 {}", number.unit));
-        let one = one.map_or(1.0, |one| number.dimension.map_or(one, |to| one.meant(to)).value);
-        let start = (number.value * one).clamp(low, high);
-        Ok(Self { name: name.to_owned(), si, bounds: [low, high], start, at })
-    }
-}
-
-/// What poses the scene.
-pub(super) struct Numbers<'a> {
-    pub(super) input: &'a Input,
-    pub(super) set: &'a [(String, String)],
-    pub(super) asked: &'a Asked,
-    pub(super) limits: &'a [Limit],
-    pub(super) method: Option<&'a str>,
-}
-
-impl Numbers<'_> {
-    /// The text of the scene with a choice and these numbers in SI units.
-    pub(super) fn text(&self, choice: &Choice, values: &[f64]) -> String {
-        let numbers = self.asked.numbers.iter().zip(values);
-        let numbers = numbers.map(|(own, value)| {
-            let text = format!("{value:e} {}", own.si);
-            (own.at, text.trim_end().to_owned())
-        });
-        let chosen = self.asked.among.iter().zip(choice);
-        let chosen = chosen.map(|(own, at)| (own.at, own.variation.text(*at)));
-        self.asked.tunables.text_with(&list(numbers.chain(chosen)))
-    }
-
-    /// The scene of a test with a choice, for any numbers.
-    pub(super) fn pose<'s>(&'s self, choice: &'s Choice, test: &'s Variant) -> Box<PoseAt<'s>> {
-        Box::new(move |values: &[f64]| {
-            let set = [self.set, &test.set].concat();
-            let posed = pose(&self.text(choice, values), &self.input.options(&set));
-            let posed = posed
-                .map_err(|faults| list(faults.list.iter().map(Diagnostic::message)).join("; "))?;
-            let method = match (self.method, &posed.run.methods[..]) {
-                (Some(wanted), _) => wanted,
-                (None, [only]) => only,
-                _ => "auto",
-            };
-            let mut settings = posed.settings(method).map_err(|error| error.to_string())?;
-            Limit::add(&mut settings.limits, self.limits.iter().cloned());
-            Ok(ScenePoint { network: posed.network, settings })
-        })
     }
 }

@@ -1,30 +1,48 @@
 //! `dashpot design`.
 
+mod among;
+mod answer;
 mod asked;
+mod figures;
+mod files;
+mod front;
+mod posing;
+mod tables;
+mod total;
 mod words;
 
-use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+use std::{num::NonZero, thread::available_parallelism};
 
 use clap::Args;
-use dashpot_analysis::sweep::PoseAt;
-use dashpot_design::optimum::{Design, Effort, Kept, Required, Requirement, design as search};
-use dashpot_scene::{Scene, read};
-use serde::Serialize;
+use dashpot_analysis::{Judgement, RunReport, sweep::PoseAt};
+use dashpot_design::optimum::{
+    Design, DesignError, Effort, Problem, Scattered, design as search, robust,
+};
+use dashpot_scene::read;
 
-use self::asked::{Asked, Choice, Least, Numbers};
-use super::run::{FloorTold, limit_lines};
+use self::{
+    among::Choice,
+    answer::{Answer, Found},
+    asked::{Asked, Least},
+    posing::Posing,
+};
+use super::run::{
+    FloorTold,
+    scatter::{self, ScatterArguments},
+};
 use crate::{
-    args::{LimitArguments, SceneArguments, Variant, method_names, variant},
+    args::{LimitArguments, SceneArguments, Variant, method_names, probability, samples, variant},
     error::{CliError, Status},
-    input::{Input, title},
+    input::Input,
     operand::print_notes,
-    output::{Pairs, Study, Text, VERSION, emit, list, object},
-    part::write_text,
-    terminal::{Terminal, note},
+    out::OutArguments,
+    output::{emit, list},
+    section::Verb,
+    terminal::Terminal,
 };
 
-/// Columns of labels.
-const LABELS: usize = 15;
+/// `[design]` of a scene.
+const SECTION: Verb = Verb { name: "design", files: &[] };
 
 /// `design`.
 #[derive(Debug, Args)]
@@ -35,22 +53,38 @@ const LABELS: usize = 15;
     --least head.hic15\n  \
     dashpot design helmet.toml --vary \"T=10..50 mm\" --vary liner.material=eps,epp \\\n    \
     --least T --test \"flat: drop=1.5 m\" --test \"kerb: drop=1.1 m, head.mass=6 kg\"\n  \
-    dashpot design helmet.toml --solve-for liner.thickness\n\n\
+    dashpot design helmet.toml --vary \"T=10..50 mm\" --least T --and head.peak-acceleration --out front\n  \
+    dashpot design stack.toml --vary \"front.thickness=2..28 mm\" --vary \"back.thickness=2..28 mm\" \\\n    \
+    --total \"front.thickness+back.thickness=30 mm\" --vary \"front.material,back.material=soft,hard\" \\\n    \
+    --least head.peak-acceleration\n  \
+    dashpot design helmet.toml --solve-for liner.thickness --robust 95%\n\n\
     A range is searched between its ends; a list, a range with a count, and words such as those\n\
     of materials are tried one by one. Limits are those of the scene and of `--limit`; they have\n\
-    to be kept in every test, and no pad is pressed by more than its thickness.")]
+    to be kept in every test, and no pad is pressed by more than its thickness. The section `[design]`\n\
+    of a scene sets options by their names; those of the command stand above them.")]
 pub(crate) struct DesignArguments {
     #[command(flatten)]
     scene: SceneArguments,
     #[command(flatten)]
     limits: LimitArguments,
-    /// A number of the scene and its bounds, or a number or word and what it may be; repeatable.
-    #[arg(long, value_name = "NAME=VALUES", required_unless_present = "solve_for")]
+    /// A number of the scene and its bounds, or a number or word and what it may be; several words with what each of them
+    /// takes another of, in all orders, "front.material,back.material=soft,hard"; repeatable.
+    #[arg(long, value_name = "NAME=VALUES")]
     vary: Vec<String>,
+    /// Numbers that vary and have a given sum, such as layers under one thickness,
+    /// "front.thickness+back.thickness=30 mm"; repeatable.
+    #[arg(long, value_name = "NAME+NAME=SUM", conflicts_with = "solve_for")]
+    total: Vec<String>,
     /// What is made least: one of the numbers that vary, or a measure such as head.peak-acceleration, the largest of
     /// all tests [default: what `--solve-for` names].
-    #[arg(long, value_name = "NAME", required_unless_present = "solve_for")]
+    #[arg(long, value_name = "NAME")]
     least: Option<String>,
+    /// What is made least besides: the front of both, along which less of one takes more of the other.
+    #[arg(long, value_name = "NAME", requires = "least")]
+    and: Option<String>,
+    /// Points of that front.
+    #[arg(long, value_name = "NUMBER", default_value_t = 9)]
+    points: usize,
     /// The least value of this number that keeps the limits, between a tenth and ten times what the scene has; stands
     /// for `--vary` and `--least`.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["vary", "least"])]
@@ -59,6 +93,15 @@ pub(crate) struct DesignArguments {
     /// "kerb: drop=1.1 m"; repeatable [default: the scene as it is].
     #[arg(long, value_name = "[NAME:] KEY=VALUE,…", value_parser = variant)]
     test: Vec<Variant>,
+    /// Everything is kept with this probability, where numbers of the scene have scatter, such as "20 ± 2 MN/m".
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability, conflicts_with = "and")]
+    robust: Option<f64>,
+    /// So many scattered designs are drawn around what was found.
+    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 500)]
+    scatter: usize,
+    /// Which of them are drawn; the same number gives the same ones.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
     /// Exits with 4 unless everything is kept, however the errors lie.
     #[arg(long)]
     enforce: bool,
@@ -69,36 +112,50 @@ pub(crate) struct DesignArguments {
     /// more.
     #[arg(long, value_name = "NUMBER", default_value_t = 400)]
     sample: usize,
-    /// File for the scene with the numbers that were found.
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// Overwrites that file.
-    #[arg(long, requires = "out")]
-    force: bool,
+    #[command(flatten)]
+    out: OutArguments,
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
 }
 
-/// What was found with one choice of words and steps.
-struct Found {
-    choice: Choice,
-    design: Result<Design, String>,
+impl DesignArguments {
+    /// Whether it is said what varies, and what is made least.
+    fn check(&self) -> Result<(), CliError> {
+        let wrong = |name: &str, reason: &str| {
+            let (name, reason) = (name.to_owned(), reason.to_owned());
+            Err(CliError::WrongSetting { name, reason })
+        };
+        if self.solve_for.is_some() {
+            return Ok(());
+        }
+        if self.vary.is_empty() {
+            return wrong("--vary", "say what may vary, as in \"liner.thickness=10..60 mm\"");
+        }
+        if self.least.is_none() {
+            return wrong("--least", "say what is made least: one of what varies, or a measure");
+        }
+        if self.and.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
+            return wrong("--points", "a front has 2 to 1000 points");
+        }
+        Ok(())
+    }
+
+    fn effort(&self) -> Effort {
+        let threads = available_parallelism().map_or(1, NonZero::get);
+        Effort { designs: self.sample.max(2), threads, ..Effort::default() }
+    }
 }
 
-/// The best design.
-struct Answer {
-    scene: Scene,
-    asked: Asked,
-    /// One for each choice, the best first.
-    found: Vec<Found>,
-    /// Of the best, test by test.
-    floors: Vec<FloorTold>,
-}
+/// More points of a front are not sought.
+const MOST_POINTS: usize = 1000;
 
 /// Searches the best design.
 pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<Status, CliError> {
     let input = Input::of(arguments.scene.scene.as_deref())?;
+    let merged = SECTION.merged(&input)?;
+    let arguments = merged.as_ref().unwrap_or(arguments);
+    arguments.check()?;
     let set = &arguments.scene.values.set;
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
@@ -107,165 +164,119 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     let asked = Asked::of(arguments, &scene, &input)?;
     let further = arguments.limits.beside(&scene.limits)?;
     scene.add_limits(further.clone());
-    if scene.limits.is_empty() && matches!(asked.least, Least::Number(_)) {
+    if scene.limits.is_empty() && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
         let name = asked.least.name(&asked).to_owned();
         return Err(CliError::NothingToKeep { name });
     }
-    let numbers = Numbers {
+    if arguments.robust.is_some() && scene.scatter.is_empty() {
+        return Err(CliError::WrongSetting {
+            name: "--robust".to_owned(),
+            reason: "no number of the scene has scatter: write one with its standard deviation, such as \
+                     \"20 ± 2 MN/m\""
+                .to_owned(),
+        });
+    }
+    let (folder, file) = arguments.out.split(files::all_names(&asked))?;
+    let posing = Posing {
         input: &input,
         set,
         asked: &asked,
         limits: &further,
         method: arguments.method.as_deref(),
+        scattered: &scene.scatter,
+        sample: ScatterArguments::new(arguments.scatter, arguments.seed),
     };
-    let threads = available_parallelism().map_or(1, NonZero::get);
-    let effort = Effort { designs: arguments.sample.max(2), threads, ..Effort::default() };
-    let mut found = Vec::new();
-    for choice in asked.choices() {
-        let design = {
-            let poses = list(asked.tests.iter().map(|test| numbers.pose(&choice, test)));
-            let tests: Vec<&PoseAt<'_>> = list(poses.iter().map(Box::as_ref));
-            search(&asked.variables(), &asked.aim(&choice), &tests, effort)
-        };
-        found.push(Found { design: design.map_err(|error| error.to_string()), choice });
-    }
+    let mut found = list(asked.choices().into_iter().map(|choice| {
+        let design = searched(arguments, &posing, &choice).map_err(|error| error.to_string());
+        Found { design, choice }
+    }));
     found.sort_by(|one, other| {
         one.rank().partial_cmp(&other.rank()).unwrap_or(std::cmp::Ordering::Equal)
     });
-    let Some(Found { choice, design: Ok(best) }) = found.first() else {
+    let front = front::found(arguments, &posing, &found)?;
+    let Some(Found { choice, design: Ok(best) }) = found.first_mut() else {
         let reason = found.into_iter().find_map(|own| own.design.err()).unwrap_or_default();
         return Err(CliError::NoDesign { reason });
     };
-    let is_kept = best.is_feasible
-        && best.runs.iter().all(|run| {
-            run.judged().iter().all(|own| own.judgement == dashpot_analysis::Judgement::Pass)
-        });
+    for (test, run) in asked.tests.iter().zip(&mut best.runs) {
+        scatter_of(&posing, (choice, test), &best.values, (run, terminal))?;
+    }
     let told = |test| -> Option<FloorTold> {
-        let point = numbers.pose(choice, test)(&best.values).ok()?;
+        let point = posing.pose(choice, test)(&best.values).ok()?;
         Some(FloorTold::of(&point.network, point.settings.duration, &point.settings.limits))
     };
     let floors = asked.tests.iter().filter_map(told).collect();
-    let text = numbers.text(choice, &best.values);
-    let answer = Answer { scene, asked: asked.clone(), found, floors };
-    emit(&answer, arguments.json, None, terminal)?;
-    if let Some(path) = &arguments.out {
-        write_text(path, &text, arguments.force)?;
-        note(&format!("wrote {}", path.display()));
+    let text = posing.written(choice, &best.values);
+    let slices = match &folder {
+        Some(_) => figures::slices(arguments, &posing, choice, best),
+        None => Vec::new(),
+    };
+    let is_kept = is_kept(best);
+    let settings = arguments.in_words();
+    let answer =
+        Answer { scene, asked: asked.clone(), found, front, floors, text, slices, settings };
+    emit(&answer, arguments.json, folder, terminal)?;
+    if let Some(file) = file {
+        file.write(&answer.text, |path| format!("wrote {}", path.display()))?;
     }
     Ok(if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done })
 }
 
-impl Found {
-    /// The better, the less: what keeps everything by its aim, what does not by how much it exceeds.
-    fn rank(&self) -> (u8, f64) {
-        match &self.design {
-            Ok(own) if own.is_feasible => (0, own.aim),
-            Ok(own) => (1, -own.least_margin()),
-            Err(_) => (2, 0.0),
+/// The best design with a choice of words and steps.
+fn searched(
+    arguments: &DesignArguments,
+    posing: &Posing<'_>,
+    choice: &Choice,
+) -> Result<Design, DesignError> {
+    let asked = posing.asked;
+    with_problem(posing, choice, |problem| match arguments.robust {
+        Some(share) => {
+            let pose =
+                |test: usize, values: &[f64]| posing.scattered(choice, &asked.tests[test], values);
+            robust(problem, Scattered { share, pose: &pose }, arguments.effort())
         }
-    }
+        None => search(problem, arguments.effort()),
+    })
 }
 
-impl Answer {
-    /// The best design, with the choice of its words and steps.
-    fn best(&self) -> Option<(&Choice, &Design)> {
-        let Found { choice, design } = self.found.first()?;
-        Some((choice, design.as_ref().ok()?))
-    }
+/// Does something with what is to be searched with a choice.
+fn with_problem<T>(
+    posing: &Posing<'_>,
+    choice: &Choice,
+    work: impl FnOnce(&Problem<'_>) -> T,
+) -> T {
+    let asked = posing.asked;
+    let poses = list(asked.tests.iter().map(|test| posing.pose(choice, test)));
+    let tests: Vec<&PoseAt<'_>> = list(poses.iter().map(Box::as_ref));
+    let (variables, aim) = (asked.variables(), asked.least.aim(asked, choice));
+    work(&Problem { variables: &variables, totals: &asked.totals, aim: &aim, tests: &tests })
 }
 
-impl Study for Answer {
-    fn text(&self, text: &mut Text) {
-        let Some((choice, best)) = self.best() else { return };
-        text.warnings(&self.warnings());
-        text.title(title(&self.scene));
-        text.faint(&words::asked(&self.asked));
-        text.blank();
-        for line in words::lines(self, choice, best) {
-            text.labelled(line.label, LABELS, &line.text);
-        }
-        text.rows_below(&words::sensitivities(&self.asked, best));
-        if self.found.len() > 1 {
-            text.rows_below(&words::choices(self));
-        }
+/// Adds to the run of a test what scatter makes of it, where the scene has some.
+fn scatter_of(
+    posing: &Posing<'_>,
+    (choice, test): (&Choice, &Variant),
+    values: &[f64],
+    (run, terminal): (&mut RunReport, Terminal),
+) -> Result<(), CliError> {
+    if posing.scattered.is_empty() {
+        return Ok(());
     }
+    let Some(drawn) = posing.drawn(choice, test, values)? else { return Ok(()) };
+    let Ok(point) = posing.pose(choice, test)(values) else { return Ok(()) };
+    let sample = (&drawn.sample, posing.sample.seed());
+    let report = scatter::solved(&drawn.scene, sample, (&point.settings, &drawn.plain), terminal);
+    run.scatter = report.map_err(CliError::Run)?.map(Box::new);
+    Ok(())
+}
 
-    fn warnings(&self) -> Vec<String> {
-        let mut all: Vec<String> = Vec::new();
-        let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
-        for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
-            if !all.contains(&warning) {
-                all.push(warning);
-            }
-        }
-        all
-    }
+/// Whether a design keeps everything, and in enough of the scatter that it has to bear.
+fn is_feasible(design: &Design) -> bool {
+    design.is_feasible && design.borne.is_none_or(|own| own.is_enough())
+}
 
-    fn object(&self) -> impl Serialize {
-        let best = self.best();
-        let parameters = best.into_iter().flat_map(|(choice, design)| {
-            let numbers = self.asked.numbers.iter().zip(&design.values);
-            let numbers = numbers.map(|(own, value)| {
-                (
-                    own.name.clone(),
-                    object! {
-                        value: Some(*value), word: None::<String>, unit: own.si.clone(),
-                    },
-                )
-            });
-            let chosen = self.asked.chosen(choice);
-            let chosen = chosen.into_iter().map(|(own, value, word)| {
-                (
-                    own,
-                    object! {
-                        value, word, unit: String::new(),
-                    },
-                )
-            });
-            list(
-                numbers
-                    .map(|own| (own.0, serde_json::json!(own.1)))
-                    .chain(chosen.map(|own| (own.0, serde_json::json!(own.1)))),
-            )
-        });
-        let kept = best.into_iter().flat_map(|own| &own.1.kept);
-        let limits = kept.clone().map(|own| {
-            let Kept { required: Required { test, what }, value, margin, is_active, price } = own;
-            let (key, bound) = match what {
-                Requirement::Limit(limit) => (&limit.key, Some(limit.bound.level())),
-                Requirement::Known(name) => (name, None),
-            };
-            object! {
-                test: &self.asked.tests[*test].name, key, bound, is_depth: bound.is_none(), value, margin,
-                active: is_active, price: price.filter(|own| own.is_finite()),
-            }
-        });
-        let measures = best.into_iter().flat_map(|own| own.1.runs.iter().zip(&self.asked.tests));
-        let measures = measures.map(|(run, test)| {
-            let told = run.told().map(|own| {
-                (own.key.clone(), object! { value: own.value, error: own.error, unit: own.unit })
-            });
-            (test.name.clone(), told.collect::<Pairs<_, _>>())
-        });
-        let floors = best
-            .into_iter()
-            .flat_map(|own| self.floors.iter().zip(&own.1.runs))
-            .zip(&self.asked.tests);
-        let floors = floors.map(|((floor, run), test)| (test.name.clone(), floor.object(run)));
-        let search = best.map(|own| own.1.search);
-        object! {
-            dashpot: VERSION,
-            parameters: parameters.collect::<Pairs<_, _>>(),
-            least: self.asked.least.name(&self.asked),
-            aim: best.map(|own| own.1.aim),
-            feasible: best.is_some_and(|own| own.1.is_feasible),
-            limits: list(limits),
-            measures: measures.collect::<Pairs<_, _>>(),
-            floor: floors.collect::<Pairs<_, _>>(),
-            search: search.map(|own| object! {
-                designs: own.designs, is_grid: own.is_grid, starts: own.starts, agree: own.agree,
-                feasible: own.feasible, solved: own.solved,
-            }),
-        }
-    }
+/// Whether a design keeps everything, however the errors lie, and in enough of the scatter that it has to bear.
+fn is_kept(design: &Design) -> bool {
+    let passes = |run: &RunReport| run.judged().iter().all(|own| own.judgement == Judgement::Pass);
+    is_feasible(design) && design.runs.iter().all(passes)
 }

@@ -1,22 +1,22 @@
 //! A design in words.
 
-use dashpot_design::optimum::{Design, Kept, Requirement, Side};
-use dashpot_plot::Table;
+use dashpot_design::optimum::{Borne, Design, Kept, Requirement, Side};
 use dashpot_units::percent;
 
 use super::{
-    Answer, Found,
-    asked::{Asked, Choice, Least},
-    limit_lines,
+    among::Choice,
+    answer::Answer,
+    asked::{Asked, Least},
 };
 use crate::{
-    numbers::{constant, counted, percent_signed, quantity, significant},
+    numbers::{counted, percent_signed, quantity, significant},
     output::list,
-    verbs::run::{Line, measure_text},
+    verbs::run::{Line, limit_lines, measure_text, scatter},
 };
 
-/// Digits of a number that was found, and of what is read beside it.
-const DIGITS: usize = 5;
+/// Digits of a number that was found, of its bounds, and of what is read beside it.
+pub(super) const DIGITS: usize = 5;
+const MOST: usize = 7;
 const FEW: usize = 3;
 /// Prices are told for this part of a bound.
 const PART: f64 = 0.01;
@@ -27,7 +27,8 @@ pub(super) fn asked(asked: &Asked) -> String {
         1 => String::new(),
         count => format!(", the worst of {count} tests"),
     };
-    format!("least {}{tests}", asked.least.name(asked))
+    let and = asked.and.as_ref().map_or(String::new(), |own| format!(" and {}", own.name(asked)));
+    format!("least {}{and}{tests}", asked.least.name(asked))
 }
 
 pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line> {
@@ -35,110 +36,197 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
     let mut lines = vec![verdict(answer, best)];
     let mut add = |label, text: String| lines.push(Line { label, text });
     for (own, at) in asked.numbers.iter().zip(0..) {
-        let (value, [low, high]) = (best.values[at], own.bounds);
         let at_bound = match best.at_bound[at] {
             Some(Side::Low) => ", AT ITS LOWER BOUND",
             Some(Side::High) => ", AT ITS UPPER BOUND",
             None => "",
         };
-        let value = quantity(value, &own.si, DIGITS);
-        let (low, high) = (constant(low, &own.si), constant(high, &own.si));
+        let value = own.text(best.values[at], DIGITS);
+        let [low, high] = own.bounds.map(|bound| own.short(bound, MOST));
         add("design", format!("{} = {value}, between {low} and {high}{at_bound}", own.name));
     }
-    for (name, _, text) in asked.chosen(choice) {
-        add("design", format!("{name} = {}", text.unwrap_or_default()));
+    for (name, own) in asked.chosen(choice) {
+        add("design", format!("{name} = {}", own.shown));
     }
     if let Least::Measure(key) = &asked.least {
-        add("least", format!("{key} {}", aim_text(answer, best, best.aim, DIGITS)));
+        let text = aim_text(asked, &asked.least, (best, best.aim), DIGITS);
+        add("least", format!("{key} {text}"));
     }
-    let several = asked.tests.len() > 1;
-    for (test, run) in asked.tests.iter().zip(&best.runs) {
-        let named = if several { format!("{}: ", test.name) } else { String::new() };
-        for line in limit_lines(run) {
-            lines.push(Line { text: named.clone() + &line.text, ..line });
-        }
+    if let Some(borne) = &best.borne {
+        add("robust", borne_text(borne));
     }
-    let active = best.kept.iter().filter(|own| own.is_active && best.is_feasible);
-    lines.extend(active.map(|own| Line { label: "active", text: held(answer, best, own) }));
-    for ((test, run), floor) in asked.tests.iter().zip(&best.runs).zip(&answer.floors) {
-        let named = if several { format!("{}: ", test.name) } else { String::new() };
-        let floors = floor.lines(run).into_iter();
-        lines.extend(floors.map(|line| Line { text: named.clone() + &line.text, ..line }));
+    let named =
+        |test: usize| answer.test_name(test).map_or(String::new(), |name| format!("{name}: "));
+    let of_test = |test: usize, all: Vec<Line>| {
+        let named = named(test);
+        all.into_iter().map(move |line| Line { text: named.clone() + &line.text, ..line })
+    };
+    for (at, run) in best.runs.iter().enumerate() {
+        lines.extend(of_test(at, limit_lines(run)));
     }
-    lines.push(Line { label: "search", text: searched(best) });
+    let held_by = best.kept.iter().filter(|own| own.is_active && best.is_feasible);
+    lines.extend(held_by.map(|own| Line { label: "active", text: held(answer, best, own) }));
+    for (at, run) in best.runs.iter().enumerate() {
+        lines.extend(of_test(at, scatter::lines(run)));
+    }
+    for (at, (run, floor)) in best.runs.iter().zip(&answer.floors).enumerate() {
+        lines.extend(of_test(at, floor.lines(run)));
+    }
+    if !answer.front.is_empty() {
+        lines.push(Line { label: "front", text: front(answer) });
+    }
+    lines.push(Line { label: "search", text: searched(answer, best) });
     lines
 }
 
-fn verdict(answer: &Answer, best: &Design) -> Line {
-    if best.is_feasible {
-        let name = answer.asked.least.name(&answer.asked);
-        let least = aim_text(answer, best, best.aim, DIGITS);
-        return Line {
-            label: "BEST",
-            text: format!("{name} {least} is the least that keeps everything"),
-        };
+pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
+    let asked = &answer.asked;
+    let name = asked.least.name(asked);
+    if !best.is_feasible {
+        let exceeded = best.kept.iter().filter(|own| own.margin < 0.0 || own.is_active);
+        let exceeded = exceeded.map(|own| {
+            format!("{} by {}", what(asked, own), percent_signed((-own.margin).max(0.0)))
+        });
+        let text = format!(
+            "no design between the bounds keeps everything; the one that exceeds the least exceeds {}",
+            list(exceeded).join(" and ")
+        );
+        return Line { label: "NONE", text };
     }
-    let exceeded = best.kept.iter().filter(|own| own.margin < 0.0 || own.is_active);
-    let exceeded =
-        exceeded.map(|own| format!("{} by {}", what(answer, own), percent_signed(-own.margin)));
-    let text = format!(
-        "no design between the bounds keeps everything; the one that exceeds the least exceeds {}",
-        list(exceeded).join(" and ")
-    );
-    Line { label: "NONE", text }
+    let least = aim_text(asked, &asked.least, (best, best.aim), DIGITS);
+    match &best.borne {
+        Some(own) if !own.is_enough() => Line {
+            label: "NONE",
+            text: format!(
+                "no design was found that keeps everything with {}; the nearest has {name} {least}",
+                percent(own.wanted, FEW)
+            ),
+        },
+        own => {
+            let with = own.map_or(String::new(), |own| {
+                format!(" with a probability of {}", percent(own.wanted, FEW))
+            });
+            let text = format!("{name} {least} is the least that keeps everything{with}");
+            Line { label: "BEST", text }
+        }
+    }
 }
 
-fn aim_text(answer: &Answer, best: &Design, value: f64, digits: usize) -> String {
-    match &answer.asked.least {
-        Least::Number(at) => quantity(value, &answer.asked.numbers[*at].si, digits),
+fn borne_text(own: &Borne) -> String {
+    let share = percent(own.kept as f64 / own.designs as f64, FEW);
+    let drawn_in = if own.deviations > 0.0 {
+        format!(
+            "limits are drawn in by {} standard deviations of what they are on",
+            significant(own.deviations, FEW)
+        )
+    } else {
+        "without any limit drawn in".to_owned()
+    };
+    format!(
+        "{} of {} scattered designs keep everything in all tests ({share}, {} wanted); {drawn_in}",
+        own.kept,
+        own.designs,
+        percent(own.wanted, FEW)
+    )
+}
+
+/// A value of what is made least, as people read it.
+pub(super) fn aim_text(
+    asked: &Asked,
+    least: &Least,
+    (design, value): (&Design, f64),
+    digits: usize,
+) -> String {
+    match least {
+        Least::Number(at) => asked.numbers[*at].text(value, digits),
         Least::Step(at) => {
-            let own = &answer.asked.among[*at].variation;
-            let si = own.dimension.map_or(String::new(), dashpot_scene::units::si_unit);
-            quantity(value, &si, digits)
+            let si = asked.among[*at].options.iter().flatten().next().map_or("", |own| &own.si);
+            let options = asked.among[*at].options.iter().flatten();
+            let is_it = |own: &f64| own.to_bits() == value.to_bits();
+            let mut taken = options.filter(|own| own.value.as_ref().is_some_and(is_it));
+            taken.next().map_or_else(|| quantity(value, si, digits), |own| own.shown.clone())
         }
         Least::Measure(key) => {
-            let unit =
-                best.runs.iter().find_map(|run| run.measure(key)).map_or("1", |own| own.unit);
-            measure_text(key, value, unit, digits)
+            let unit = design.runs.iter().find_map(|run| run.measure(key));
+            measure_text(key, value, unit.map_or("1", |own| own.unit), digits)
         }
     }
 }
 
 /// What is required: `head.peak-acceleration`, `what is known of pad`, with its test where there are several.
-fn what(answer: &Answer, own: &Kept) -> String {
+pub(super) fn what(asked: &Asked, own: &Kept) -> String {
     let what = match &own.required.what {
         Requirement::Limit(limit) => limit.key.clone(),
         Requirement::Known(name) => format!("what is known of {name}"),
+        Requirement::Ceiling(..) => asked.and.as_ref().map_or("", |own| own.name(asked)).to_owned(),
     };
-    match &answer.asked.tests[..] {
+    match &asked.tests[..] {
         [_] => what,
         tests => format!("{}: {what}", tests[own.required.test].name),
     }
 }
 
+/// What holds a design, but for what is made least besides; bounds of numbers as well.
+pub(super) fn active(asked: &Asked, design: &Design) -> Vec<String> {
+    let is_of_front = |own: &&Kept| matches!(own.required.what, Requirement::Ceiling(..));
+    let held = design.kept.iter().filter(|own| own.is_active && !is_of_front(own));
+    let at_bound = asked.numbers.iter().zip(&design.at_bound);
+    let at_bound = at_bound.filter(|own| own.1.is_some());
+    list(held.map(|own| what(asked, own)).chain(at_bound.map(|own| own.0.name.clone())))
+}
+
 /// What holds the design, and what 1 % more of it would change.
 fn held(answer: &Answer, best: &Design, own: &Kept) -> String {
-    let held = match &own.required.what {
-        Requirement::Limit(_) => format!("{} is at its limit", what(answer, own)),
-        Requirement::Known(name) => {
-            format!("{name} is pressed to {} of what is known of it", percent(own.value, DIGITS))
+    let asked = &answer.asked;
+    let (held, level) = match &own.required.what {
+        Requirement::Limit(limit) => {
+            let drawn_in = if best.borne.is_some_and(|own| own.deviations > 0.0) {
+                " as it is drawn in"
+            } else {
+                ""
+            };
+            (format!("{} is at its limit{drawn_in}", what(asked, own)), limit.bound.level().abs())
         }
-    };
-    let level = match &own.required.what {
-        Requirement::Limit(limit) => limit.bound.level().abs(),
-        Requirement::Known(_) => 1.0,
+        Requirement::Known(name) => {
+            let part = percent(own.value, DIGITS);
+            (format!("{name} is pressed to {part} of what is known of it"), 1.0)
+        }
+        Requirement::Ceiling(_, most) => (what(asked, own), most.abs()),
     };
     let change = own.price.map(|price| PART * level * price).filter(|own| own.is_finite());
     let change = change.map_or(String::new(), |change| {
-        let text = aim_text(answer, best, change.abs(), FEW);
+        let text = aim_text(asked, &asked.least, (best, change.abs()), FEW);
         let way = if change < 0.0 { "off" } else { "onto" };
-        let name = answer.asked.least.name(&answer.asked);
-        format!("; 1 % more of it takes {text} {way} {name}")
+        format!("; 1 % more of it takes {text} {way} {}", asked.least.name(asked))
     });
     held + &change
 }
 
-fn searched(best: &Design) -> String {
+/// How far the front reaches, and how far its values may be off.
+fn front(answer: &Answer) -> String {
+    let asked = &answer.asked;
+    let errors = answer.front.iter().flat_map(|own| own.aims(asked));
+    let errors = errors.filter_map(|(value, error)| Some(error? / value.abs()));
+    let most = errors.filter(|own| own.is_finite()).fold(0.0, f64::max);
+    let within = match most {
+        0.0 => String::new(),
+        most => format!("; every measure within {}", crate::numbers::bound(most)),
+    };
+    let how = match answer.front.len() {
+        1 => "one design has the least of both".to_owned(),
+        count => format!(
+            "{count} designs, each with the least {} for its {}",
+            asked.least.name(asked),
+            asked.and.as_ref().map_or("", |own| own.name(asked))
+        ),
+    };
+    how + &within
+}
+
+fn searched(answer: &Answer, best: &Design) -> String {
+    if answer.asked.numbers.is_empty() {
+        return format!("all {} are solved", counted(answer.found.len(), "choice"));
+    }
     let own = best.search;
     let spread = if own.is_grid {
         format!("all {} of a grid", counted(own.designs, "design"))
@@ -149,76 +237,4 @@ fn searched(best: &Design) -> String {
     let agree = format!("{} of {} searches from the best end here", own.agree, own.starts);
     let better = if own.is_grid && best.is_feasible { ", none of them better" } else { "" };
     format!("{spread}, {feasible}{better}; {agree}; {} solved", counted(own.solved, "design"))
-}
-
-/// By how many percent aim and limits change where a number rises by one.
-pub(super) fn sensitivities(asked: &Asked, best: &Design) -> Table {
-    let mut header = vec!["1 % more of".to_owned()];
-    let is_measure = matches!(asked.least, Least::Measure(_));
-    if is_measure {
-        header.push(asked.least.name(asked).to_owned());
-    }
-    let name = |own: &Kept| match &own.required.what {
-        Requirement::Limit(limit) => limit.key.clone(),
-        Requirement::Known(name) => format!("depth in {name}"),
-    };
-    let shown: Vec<usize> = (0..best.kept.len())
-        .filter(|at| {
-            let own = &best.kept[*at];
-            own.required.test == 0 && !(is_measure && name(own) == asked.least.name(asked))
-        })
-        .collect();
-    header.extend(shown.iter().map(|at| name(&best.kept[*at])));
-    let cell = |slope: f64, value: f64, of: f64| {
-        let part = slope * value / of;
-        if part.is_finite() { format!("{} %", signed(part)) } else { "–".to_owned() }
-    };
-    let rows =
-        asked.numbers.iter().zip(&best.values).zip(&best.slopes).map(|((own, value), slope)| {
-            let aim = is_measure.then(|| cell(slope.aim, *value, best.aim));
-            let others =
-                shown.iter().map(|at| cell(slope.values[*at], *value, best.kept[*at].value));
-            list([own.name.clone()].into_iter().chain(aim).chain(others))
-        });
-    Table { caption: String::new(), header, rows: list(rows) }
-}
-
-fn signed(part: f64) -> String {
-    let text = significant(part.abs(), FEW);
-    if part < 0.0 { format!("−{text}") } else { format!("+{text}") }
-}
-
-/// What each choice of words and steps comes to, the best first.
-pub(super) fn choices(answer: &Answer) -> Table {
-    let asked = &answer.asked;
-    let names = asked.among.iter().map(|own| own.variation.name.clone());
-    let numbers = asked.numbers.iter().map(|own| own.name.clone());
-    let least = match &asked.least {
-        Least::Measure(key) => Some(key.clone()),
-        Least::Number(_) | Least::Step(_) => None,
-    };
-    let header = names.chain(numbers).chain(least.clone()).chain(["verdict".to_owned()]);
-    let row = |own: &Found| {
-        let chosen = asked.chosen(&own.choice).into_iter().map(|own| own.2.unwrap_or_default());
-        let (numbers, aim, verdict) = match &own.design {
-            Ok(design) => {
-                let numbers = asked.numbers.iter().zip(&design.values);
-                let numbers = list(numbers.map(|(own, value)| quantity(*value, &own.si, DIGITS)));
-                let aim = aim_text(answer, design, design.aim, DIGITS);
-                let verdict = if design.is_feasible {
-                    "keeps everything".to_owned()
-                } else {
-                    format!("exceeds by {}", percent_signed(-design.least_margin()))
-                };
-                (numbers, aim, verdict)
-            }
-            Err(why) => (vec!["–".to_owned(); asked.numbers.len()], "–".to_owned(), why.clone()),
-        };
-        list(chosen.chain(numbers).chain(least.as_ref().map(|_| aim)).chain([verdict]))
-    };
-    Table {
-        caption: "Choices".to_owned(),
-        header: list(header),
-        rows: list(answer.found.iter().map(row)),
-    }
 }

@@ -9,12 +9,13 @@ use dashpot_plot::Table;
 use dashpot_scene::{NamedModel, read_named_model, with_model};
 use serde::Serialize;
 
-use super::scene::{FittedScene, Plan, Varied};
+use super::scene::{FittedScene, Plan};
 use crate::{
     error::CliError,
     numbers::{share, significant},
     output::{list, object},
     terminal::note,
+    varied::Varied,
 };
 
 /// The option, for messages.

@@ -5,13 +5,14 @@ use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, Tunables};
 use dashpot_signal::Cfc;
 
-use super::{pressed::times, scene::Varied, target::is_output};
+use super::{pressed::times, target::is_output};
 use crate::{
     args::{assignment, frequency_class, share},
     error::CliError,
     input::setting,
     measured::MeasuredFile,
     output::list,
+    varied::Varied,
 };
 
 /// The option, for messages.

@@ -1,10 +1,5 @@
 //! What `fit` writes: a scene into a file, or all that it says into a folder.
 
-use std::{
-    ffi::OsStr,
-    path::{Path, PathBuf},
-};
-
 use dashpot_plot::{Report, ReportFigure, Table};
 
 use super::{
@@ -16,59 +11,20 @@ use super::{
 use crate::{
     args::Switch,
     error::CliError,
-    folder::{Folder, Staged},
+    folder::Staged,
     input::title,
     numbers::share,
     origin,
     output::{PAGE, Study as _, VERSION, list},
-    part::write_text,
     said, sketch,
-    terminal::note,
 };
 
 /// The scene or model with what was found, in a folder.
 const SCENE: &str = "fitted.toml";
 
-/// Where what was found goes.
-pub(super) enum Out {
-    /// A scene, overwritten if that is asked for.
-    File(PathBuf, bool),
-    /// Everything.
-    Folder(Folder),
-}
-
-impl Out {
-    /// What the command line asks for: a file that ends in `.toml`, or a folder.
-    pub(super) fn of(arguments: &FitArguments) -> Result<Option<Self>, CliError> {
-        let Some(path) = &arguments.out else { return Ok(None) };
-        if path.extension() == Some(OsStr::new("toml")) {
-            return Ok(Some(Self::File(path.clone(), arguments.force)));
-        }
-        let own = [SCENE, PAGE].map(str::to_owned);
-        let all = names(arguments.to.len()).into_iter().chain(own);
-        Ok(Folder::wanted(Some(path.as_path()), all)?.map(Self::Folder))
-    }
-
-    /// The folder, if it is one, and the file otherwise.
-    pub(super) fn split(own: Option<Self>) -> (Option<Folder>, Option<(PathBuf, bool)>) {
-        match own {
-            Some(Self::Folder(folder)) => (Some(folder), None),
-            Some(Self::File(path, force)) => (None, Some((path, force))),
-            None => (None, None),
-        }
-    }
-}
-
-/// Writes a scene into a file, and tells of it.
-pub(super) fn write_scene(
-    file: Option<(PathBuf, bool)>,
-    text: &str,
-    told: impl FnOnce(&Path) -> String,
-) -> Result<(), CliError> {
-    let Some((path, force)) = file else { return Ok(()) };
-    write_text(&path, text, force)?;
-    note(&told(&path));
-    Ok(())
+/// The files of a folder besides the result.
+pub(super) fn all_names(records: usize) -> impl Iterator<Item = String> {
+    names(records).into_iter().chain([SCENE, PAGE].map(str::to_owned))
 }
 
 impl FitArguments {

@@ -9,7 +9,6 @@ mod pressed;
 mod scene;
 mod scene_object;
 mod scene_words;
-mod section;
 mod shown;
 mod solver;
 mod target;
@@ -17,7 +16,7 @@ mod watched;
 mod words;
 mod written;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use dashpot_fit::linear::{
@@ -28,7 +27,7 @@ use serde::Serialize;
 
 use self::{
     asked::{Asked, Measured, asked},
-    files::{Out, write_model, write_scene},
+    files::{all_names, write_model},
     words::{Units, branches, comments, determined, ends, notes, records, warnings},
 };
 use crate::{
@@ -36,9 +35,14 @@ use crate::{
     error::{CliError, Status},
     folder::Staged,
     input::Input,
+    out::OutArguments,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
+    section::Verb,
     terminal::{Terminal, note},
 };
+
+/// `[fit]` of a scene; what is fitted to are files beside it.
+const SECTION: Verb = Verb { name: "fit", files: &["to"] };
 
 /// `fit`.
 #[derive(Debug, Args)]
@@ -114,13 +118,8 @@ pub(crate) struct FitArguments {
     seed: u64,
     #[command(flatten)]
     values: ValueArguments,
-    /// File for the scene with what was fitted, if it ends in `.toml`; else a folder for that, figures of all records,
-    /// their rows as CSV, result.json, and report.html with everything on one page.
-    #[arg(long, value_name = "FILE.toml|DIR")]
-    out: Option<PathBuf>,
-    /// Overwrites the file if there is one.
-    #[arg(long, requires = "out")]
-    force: bool,
+    #[command(flatten)]
+    out: OutArguments,
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
@@ -189,18 +188,19 @@ impl Fitted {
 /// Fits numbers of a scene, or a model.
 pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status, CliError> {
     let input = arguments.scene.as_deref().map(Input::read).transpose()?;
-    let merged = input.as_ref().map(section::merged).transpose()?.flatten();
+    let merged = input.as_ref().map(|own| SECTION.merged(own)).transpose()?.flatten();
     let arguments = merged.as_ref().unwrap_or(arguments);
     arguments.check()?;
     let Some(input) = input.as_ref().filter(|_| arguments.fits_numbers()) else {
         return fit_model(arguments, input.as_ref(), terminal);
     };
-    let (folder, file) = Out::split(Out::of(arguments)?);
+    let (folder, file) = arguments.out.split(all_names(arguments.to.len()))?;
     let fitted = scene::fitted(arguments, input, terminal)?;
     emit(&fitted, arguments.json, folder, terminal)?;
-    write_scene(file, &fitted.scene_text(&fitted.comments()), |path| {
-        format!("wrote {}", path.display())
-    })?;
+    if let Some(file) = file {
+        let text = fitted.scene_text(&fitted.comments());
+        file.write(&text, |path| format!("wrote {}", path.display()))?;
+    }
     Ok(if fitted.fit.is_stopped { Status::RunFailed } else { Status::Done })
 }
 
@@ -209,7 +209,7 @@ fn fit_model(
     input: Option<&Input>,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let (folder, file) = Out::split(Out::of(arguments)?);
+    let (folder, file) = arguments.out.split(all_names(arguments.to.len()))?;
     let name = &arguments.to[0].target;
     if let Some(other) = arguments.to.iter().find(|own| own.target != *name) {
         let reason = format!("`{name}` is fitted already: one model at a time");
@@ -248,9 +248,10 @@ fn fit_model(
     let scene = input.map(|own| (own, &arguments.values.set[..]));
     fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, folder, terminal)?;
-    write_scene(file, &fitted.text, |path| {
-        format!("wrote {0}; its model is `{0}:{name}`", path.display())
-    })?;
+    if let Some(file) = file {
+        let told = |path: &Path| format!("wrote {0}; its model is `{0}:{name}`", path.display());
+        file.write(&fitted.text, told)?;
+    }
     Ok(Status::Done)
 }
 

@@ -5,10 +5,7 @@ use dashpot_fit::network::{
     Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Search, Test,
     fit_watched,
 };
-use dashpot_scene::{
-    Posed, ScatteredNumber, Scene, Tunables, Variation, read,
-    units::{parse_quantity, si_unit},
-};
+use dashpot_scene::{Posed, ScatteredNumber, Scene, Tunables, Variation, read};
 
 use super::{
     FitArguments,
@@ -26,6 +23,7 @@ use crate::{
     operand::print_notes,
     output::list,
     terminal::{Terminal, note},
+    varied::{Varied, unvaried},
 };
 
 /// Digits of fitted numbers in a scene.
@@ -33,23 +31,6 @@ const DIGITS: usize = 5;
 /// What was measured of a number of a test is not left by more standard deviations, nor by this factor.
 const FARTHEST: f64 = 8.0;
 const FACTOR: f64 = 4.0;
-
-/// A number that was fitted.
-#[derive(Debug, Clone)]
-pub(super) struct Varied {
-    pub(super) name: String,
-    /// Its unit in the scene, or that of the command line; empty where it has none.
-    pub(super) unit: String,
-    /// What one of that is in SI units.
-    pub(super) one: f64,
-    /// Its SI unit.
-    pub(super) si: String,
-    pub(super) bounds: [f64; 2],
-    /// Where the search begins.
-    pub(super) start: f64,
-    /// Its place in the text; a constant of a form has none.
-    pub(super) at: Option<usize>,
-}
 
 /// A measure of the fitted scene: its key, its SI unit, and what the uncertainty of the numbers makes of it.
 pub(super) struct Measured {
@@ -246,18 +227,6 @@ impl<'p> Plan<'p> {
     }
 }
 
-/// What is set but for numbers that are fitted: it would stand above what is written into the text.
-fn unvaried(
-    set: &[(String, String)],
-    numbers: &[Varied],
-    tunables: &Tunables,
-) -> Vec<(String, String)> {
-    let is_varied = |name: &str| {
-        tunables.find(name).is_ok_and(|at| numbers.iter().any(|own| own.at == Some(at)))
-    };
-    list(set.iter().filter(|own| !is_varied(&own.0)).cloned())
-}
-
 /// Searches the numbers: with one compiled form of each test where full runs agree with it at what was found.
 fn searched(
     (begun, tests): (&[Number], &[Test]),
@@ -349,14 +318,9 @@ fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliErro
             );
             return Err(wrong(reason));
         }
-        let si = own.dimension.map_or(String::new(), si_unit);
-        let unit = tunables.all()[at].unit.clone();
-        let one = parse_quantity(&format!("1 {unit}"));
-        let one = one.map_or(1.0, |one| own.dimension.map_or(one, |to| one.meant(to)).value);
         let known = Known { mean: own.mean, deviation: own.deviation };
-        let bounds = around(&known);
-        let (name, start, at) = (name.clone(), known.mean, Some(at));
-        numbers.push((Varied { name, unit, one, si, bounds, start, at }, known));
+        let number = Varied::of(tunables, (name, at), around(&known), ("", own.dimension));
+        numbers.push((Varied { start: known.mean, ..number }, known));
     }
     Ok(OwnNumbers { numbers })
 }
@@ -429,14 +393,7 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         if own.is_of_words() || !is_range {
             return Err(wanted(&own.name));
         }
-        let number = &tunables.all()[at];
-        let unit = if number.unit.is_empty() { &own.unit } else { &number.unit };
-        let one = parse_quantity(&format!("1 {unit}"));
-        let one = one.map_or(1.0, |own| number.dimension.map_or(own, |to| own.meant(to)).value);
-        let dimension = number.dimension.or(own.dimension);
-        let si = dimension.map_or(String::new(), si_unit);
-        let (name, unit, start) = (own.name.clone(), unit.clone(), number.value);
-        Ok(Varied { name, unit, one, si, bounds, start, at: Some(at) })
+        Ok(Varied::of(tunables, (&own.name, at), bounds, (&own.unit, own.dimension)))
     });
     varied.collect()
 }

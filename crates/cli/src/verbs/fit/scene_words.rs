@@ -5,11 +5,7 @@ use dashpot_plot::Table;
 use serde::Serialize;
 
 use super::{
-    among::Among,
-    files::write_fitted_scene,
-    scene::{FittedScene, Varied},
-    shown::Shown,
-    target::Compared,
+    among::Among, files::write_fitted_scene, scene::FittedScene, shown::Shown, target::Compared,
 };
 use crate::{
     error::CliError,
@@ -17,6 +13,7 @@ use crate::{
     input::title,
     numbers::{percent_signed, quantity, significant},
     output::{Study, Text, list},
+    varied::Varied,
 };
 
 /// Digits of fitted values.
@@ -40,8 +37,7 @@ fn value(own: &Varied, value: f64) -> String {
     if own.at.is_none() {
         return quantity(value, &own.si, DIGITS);
     }
-    let number = significant(value / own.one, DIGITS);
-    if own.unit.is_empty() { number } else { format!("{number} {}", own.unit) }
+    own.text(value, DIGITS)
 }
 
 fn ends(own: &Varied, found: &Interval) -> [String; 2] {

@@ -6,8 +6,7 @@ use dashpot_fit::{
 };
 use dashpot_network::Network;
 
-use super::scene::Varied;
-use crate::{error::CliError, output::list};
+use crate::{error::CliError, output::list, varied::Varied};
 
 /// A number is moved by this part to see what it acts on.
 const MOVED: f64 = 1e-3;

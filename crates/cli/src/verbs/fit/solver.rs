@@ -14,12 +14,13 @@ use dashpot_dae::Signal;
 use dashpot_fit::network::Curve;
 use dashpot_network::Assembly;
 use dashpot_plot::Of;
-use dashpot_scene::{Diagnostics, NamedModel, Posed, Tunables, pose, read_named_model};
+use dashpot_scene::{NamedModel, Posed, Tunables, read_named_model};
 
-use super::{among::Replaced, scene::Varied};
+use super::among::Replaced;
 use crate::{
     input::Input,
     output::list,
+    varied::{Varied, messages, point, posed},
     verbs::run::{beside::Output, series::first_touch},
 };
 
@@ -51,9 +52,7 @@ impl Poser<'_> {
     /// The text of the scene where the numbers have these values in SI units.
     fn text(&self, values: &[f64]) -> Solved<String> {
         let each = || self.numbers.iter().zip(values);
-        let texts = each().filter_map(|(own, value)| {
-            Some((own.at?, format!("{value:e} {}", own.si).trim_end().to_owned()))
-        });
+        let texts = each().filter_map(|(own, value)| Some((own.at?, own.exact(*value))));
         let text = self.tunables.text_with(&list(texts));
         let Some(replaced) = self.replaced else { return Ok(text) };
         let constants = each().filter(|own| own.0.at.is_none()).map(|own| *own.1);
@@ -62,7 +61,7 @@ impl Poser<'_> {
 
     /// The scene there.
     pub(super) fn posed(&self, values: &[f64]) -> Solved<Posed> {
-        pose(&self.text(values)?, &self.input.options(&self.set)).map_err(|own| messages(&own))
+        posed(&self.text(values)?, self.input, &self.set)
     }
 
     /// One of its models there.
@@ -73,22 +72,12 @@ impl Poser<'_> {
 
     /// The same with what is asked of a run of which differences are taken.
     pub(super) fn point(&self, values: &[f64]) -> Solved<ScenePoint> {
-        let posed = self.posed(values)?;
-        let method = match &posed.run.methods[..] {
-            [only] => only,
-            _ => "auto",
-        };
-        let mut settings = posed.settings(method).map_err(|error| error.to_string())?;
-        settings.estimate = false;
+        let mut point = point(self.posed(values)?, None)?;
+        point.settings.estimate = false;
         // Differences of runs are taken, which exact ones bear anyhow.
-        settings.rtol = settings.rtol.or(Some(RTOL));
-        Ok(ScenePoint { network: posed.network, settings })
+        point.settings.rtol = point.settings.rtol.or(Some(RTOL));
+        Ok(point)
     }
-}
-
-fn messages(faults: &Diagnostics) -> String {
-    let messages = faults.list.iter().map(dashpot_scene::Diagnostic::message);
-    messages.collect::<Vec<_>>().join("; ")
 }
 
 /// A run for these numbers.

@@ -103,6 +103,19 @@ impl Told {
         lines
     }
 
+    /// The highest floor of each measure among those of several runs, in SI units.
+    pub(crate) fn highest(all: &[Self], runs: &[RunReport]) -> Pairs<String, Highest> {
+        let mut found: Vec<(String, Highest)> = Vec::new();
+        for own in all.iter().zip(runs).flat_map(|(floor, run)| floor.beside(run)) {
+            let (key, value) = (&own.measure.key, own.floor.value);
+            match found.iter_mut().find(|known| known.0 == *key) {
+                Some(known) => known.1.value = known.1.value.max(value),
+                None => found.push((key.clone(), Highest { value, unit: own.measure.unit })),
+            }
+        }
+        found.into_iter().collect()
+    }
+
     pub(crate) fn object(&self, run: &RunReport) -> Object {
         let beside = self.beside(run);
         let measures = beside.iter().map(|own| {
@@ -122,6 +135,13 @@ impl Told {
             measures,
         }
     }
+}
+
+/// The highest of several floors.
+#[derive(Serialize)]
+pub(crate) struct Highest {
+    value: f64,
+    unit: &'static str,
 }
 
 /// The floors as an object, in SI units.

@@ -15,7 +15,7 @@ mod object;
 mod order;
 pub(super) mod recorded;
 mod resolved_scene;
-mod scatter;
+pub(crate) mod scatter;
 pub(super) mod series;
 mod solving;
 mod verdict;

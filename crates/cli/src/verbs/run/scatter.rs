@@ -8,9 +8,7 @@ use dashpot_analysis::{
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
 };
 use dashpot_plot::Table;
-use dashpot_scene::{
-    Change, Diagnostic, Drawn, Posed, ReadOptions, Sample, Scene, pose, read, units::si_unit,
-};
+use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, pose, read, units::si_unit};
 use dashpot_units::percent;
 
 use super::{
@@ -24,6 +22,7 @@ use crate::{
     numbers::{self, MOST_DIGITS, Unit, rounded},
     progress::Bar,
     terminal::Terminal,
+    varied::messages,
 };
 
 /// What is smaller than this part of the largest value of its unit is what rounding leaves of zero.
@@ -35,7 +34,7 @@ const DIGITS: usize = 4;
 
 /// How scatter is sampled.
 #[derive(Debug, Clone, Copy, Args)]
-pub(super) struct ScatterArguments {
+pub(crate) struct ScatterArguments {
     /// So many designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": a Latin hypercube.
     #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 500)]
     sample: usize,
@@ -45,14 +44,24 @@ pub(super) struct ScatterArguments {
 }
 
 impl ScatterArguments {
+    /// So many designs, drawn with this seed.
+    pub(crate) fn new(sample: usize, seed: u64) -> Self {
+        Self { sample, seed }
+    }
+
+    /// How many designs are drawn.
+    pub(crate) fn count(self) -> usize {
+        self.sample
+    }
+
     /// What the designs are drawn with.
-    pub(super) fn seed(self) -> u64 {
+    pub(crate) fn seed(self) -> u64 {
         self.seed
     }
 }
 
 /// The designs that are drawn from the scatter of a scene, `None` where it has none.
-pub(super) fn drawn(
+pub(crate) fn drawn(
     scene: &Scene,
     arguments: ScatterArguments,
     plain: &[(String, String)],
@@ -76,7 +85,7 @@ fn options<'o>(scene: &'o Scene, set: &'o [(String, String)]) -> ReadOptions<'o>
 }
 
 /// What is set from outside and has no scatter: names under `[values]`.
-pub(super) fn plainly_set(scene: &Scene, set: &[(String, String)]) -> Vec<(String, String)> {
+pub(crate) fn plainly_set(scene: &Scene, set: &[(String, String)]) -> Vec<(String, String)> {
     let is_named = |name: &String| scene.values.iter().any(|known| known.name == *name);
     let has_scatter =
         |name: &String| scene.scatter.iter().any(|own| own.path == format!("values.{name}"));
@@ -84,28 +93,18 @@ pub(super) fn plainly_set(scene: &Scene, set: &[(String, String)]) -> Vec<(Strin
 }
 
 /// What the designs of a sample give, solved with the settings of a run but without estimates of their errors.
-pub(super) fn solved(
+pub(crate) fn solved(
     scene: &Scene,
     (sample, seed): (&Sample, u64),
     (settings, plain): (&SolveSettings, &[(String, String)]),
     terminal: Terminal,
 ) -> Result<Option<ScatterReport>, RunError> {
-    let point = |scene: Scene| {
-        let mut settings = settings.clone();
-        settings.duration = scene.run.duration;
-        ScenePoint { network: scene.network, settings }
-    };
-    let columns = match columns(&point(scene.clone()), &[]) {
+    let columns = match columns(&point(scene.clone(), settings), &[]) {
         Ok((columns, _)) => columns.into_iter().filter(|own| !own.is_share).collect::<Vec<_>>(),
         Err(SweepError::Run(error)) => return Err(error),
         Err(_) => return Ok(None),
     };
-    let pose = |places: &[usize]| {
-        let checked = read(&sample.text(places[0]), &options(scene, plain)).map_err(|faults| {
-            faults.list.iter().map(Diagnostic::message).collect::<Vec<_>>().join("; ")
-        })?;
-        Ok(point(checked.value))
-    };
+    let pose = |places: &[usize]| design(scene, sample, places[0], (settings, plain));
     let Some(grid) = Grid::new(vec![sample.len()]) else { return Ok(None) };
     let threads = available_parallelism().map_or(1, NonZero::get);
     let mut bar = Bar::new("scatter", 0.0, terminal.error.attended);
@@ -118,6 +117,22 @@ pub(super) fn solved(
         Err(SweepError::Run(error)) => Err(error),
         Err(_) => Ok(None),
     }
+}
+
+/// A design of a sample, with the settings of a run.
+pub(crate) fn design(
+    scene: &Scene,
+    sample: &Sample,
+    at: usize,
+    (settings, plain): (&SolveSettings, &[(String, String)]),
+) -> Result<ScenePoint, String> {
+    let checked = read(&sample.text(at), &options(scene, plain)).map_err(|own| messages(&own))?;
+    Ok(point(checked.value, settings))
+}
+
+fn point(scene: Scene, settings: &SolveSettings) -> ScenePoint {
+    let settings = SolveSettings { duration: scene.run.duration, ..settings.clone() };
+    ScenePoint { network: scene.network, settings }
 }
 
 fn source(drawn: &Drawn) -> ScatterSource {
@@ -135,7 +150,7 @@ fn source(drawn: &Drawn) -> ScatterSource {
 }
 
 /// What was drawn, and how it was solved.
-pub(super) fn lines(run: &RunReport) -> Vec<Line> {
+pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
     let Some(own) = &run.scatter else { return Vec::new() };
     let how = if own.instantiated == own.designs {
         "instantiated of one compiled form".to_owned()
@@ -211,7 +226,7 @@ fn in_percent(share: f64) -> String {
 }
 
 /// The bands of all measures; nothing where there is no scatter.
-pub(super) fn table(run: &RunReport) -> Option<Table> {
+pub(crate) fn table(run: &RunReport) -> Option<Table> {
     let own = run.scatter.as_ref()?;
     let header = ["measure", "mean", "standard\ndeviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));

@@ -264,6 +264,7 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
         shown,
         values,
         limits,
+        markers: Vec::new(),
         x,
         y,
     }

@@ -1,4 +1,4 @@
-//! `[fit]`: what a scene asks of a fit, by the names of the command's options.
+//! Sections such as `[fit]` and `[design]`: what a scene asks of a verb, by the names of the command's options.
 
 use std::sync::Arc;
 
@@ -10,9 +10,12 @@ use crate::{
     },
 };
 
+/// The verbs that have a section, each with what it does in a few words.
+pub const WISHING: [(&str, &str); 2] = [("fit", "a fit"), ("design", "a design")];
+
 /// An option that a scene sets.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FitWish {
+pub struct Wish {
     /// Its name, without dashes.
     pub key: String,
     /// Its values as the command line would have them; one but for what may be repeated, and none for what is not
@@ -24,15 +27,16 @@ pub struct FitWish {
     pub line: usize,
 }
 
-/// What the section `[fit]` of a scene sets; nothing where there is none. Which names there are is not looked at.
+/// What the section of a verb, such as `[fit]`, sets in a scene; nothing where there is none. Which names there are is not
+/// looked at.
 ///
 /// # Examples
 ///
 /// ```
-/// use dashpot_scene::fit_wishes;
+/// use dashpot_scene::wishes;
 ///
 /// let text = "[fit]\nto = [\"a.csv:F=pad.force\", \"b.csv:F=pad.force\"]\ncfc = 180\nprofile = true\n";
-/// let own = fit_wishes(text, None)?;
+/// let own = wishes("fit", text, None)?;
 /// assert_eq!((own[0].key.as_str(), own[0].values.len(), own[0].line), ("to", 2, 2));
 /// assert_eq!((own[1].values[0].as_str(), own[2].is_switch), ("180", true));
 /// # Ok::<(), dashpot_scene::Diagnostics>(())
@@ -41,27 +45,31 @@ pub struct FitWish {
 /// # Errors
 ///
 /// A text that is no TOML, and values that are neither texts, numbers, switches nor lists of texts.
-pub fn fit_wishes(text: &str, file: Option<&str>) -> Result<Vec<FitWish>, Diagnostics> {
+pub fn wishes(verb: &str, text: &str, file: Option<&str>) -> Result<Vec<Wish>, Diagnostics> {
     let faults = Faults::default();
     let source = Arc::new(Source::new(file.unwrap_or("scene"), text));
     let root = parse(&source, &faults);
     let Some(root) = root.filter(|_| faults.errors() == 0) else { return Err(faults.finish()) };
     let sections = root.table().unwrap_or(&[]);
-    let Some(section) = sections.iter().find(|own| own.key == "fit") else { return Ok(Vec::new()) };
+    let Some(section) = sections.iter().find(|own| own.key == verb) else { return Ok(Vec::new()) };
     let Some(entries) = section.item.table() else {
-        faults.error(section.key_place, Fault::odd("`fit` is a table", "write `[fit]`"));
+        faults.error(
+            section.key_place,
+            Fault::odd(format!("`{verb}` is a table"), &format!("write `[{verb}]`")),
+        );
         return Err(faults.finish());
     };
+    let what = WISHING.iter().find(|own| own.0 == verb).map_or(verb, |own| own.1);
     let mut wishes = Vec::new();
     for entry in entries {
         let Some((values, is_switch)) = values(&entry.item) else {
-            let message = format!("`{}` is no option of a fit", entry.key);
+            let message = format!("`{}` is no option of {what}", entry.key);
             let help = "write texts, numbers, true or false, or lists of texts";
             faults.error(entry.item.place, Fault::odd(message, help));
             continue;
         };
         let line = 1 + text[..entry.key_place.span().start].matches('\n').count();
-        wishes.push(FitWish { key: entry.key.to_string(), values, is_switch, line });
+        wishes.push(Wish { key: entry.key.to_string(), values, is_switch, line });
     }
     if faults.errors() == 0 { Ok(wishes) } else { Err(faults.finish()) }
 }
@@ -93,8 +101,8 @@ mod tests {
 
     #[test]
     fn what_is_no_option_is_told_with_its_line() {
-        assert_eq!(fit_wishes("[run]\nduration = 1\n", None).unwrap(), []);
-        let fault = |text: &str| fit_wishes(text, None).unwrap_err().render(false);
+        assert_eq!(wishes("fit", "[run]\nduration = 1\n", None).unwrap(), []);
+        let fault = |text: &str| wishes("fit", text, None).unwrap_err().render(false);
         assert!(fault("[fit]\nto = { a = 1 }\n").contains("`to` is no option of a fit"));
         assert!(fault("fit = 1\n").contains("`fit` is a table"));
         assert!(fault("[fit\n").contains('1'));

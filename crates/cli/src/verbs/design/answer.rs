@@ -1,0 +1,242 @@
+//! What a search has found, for people and for programs.
+
+use dashpot_analysis::{Judged, RunReport};
+use dashpot_design::optimum::{Design, Kept, Looked, Requirement};
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+use super::{
+    among::{Choice, Taken},
+    asked::Asked,
+    files,
+    front::Point,
+    tables, words,
+};
+use crate::{
+    error::CliError,
+    folder::Staged,
+    input::title,
+    output::{Pairs, Study, Text, VERSION, list, object},
+    verbs::run::{FloorTold, scatter},
+};
+
+/// Columns of labels.
+const LABELS: usize = 15;
+
+/// What was found with one choice of words and steps.
+pub(super) struct Found {
+    pub(super) choice: Choice,
+    pub(super) design: Result<Design, String>,
+}
+
+/// The best design.
+pub(super) struct Answer {
+    pub(super) scene: Scene,
+    pub(super) asked: Asked,
+    /// One for each choice, the best first.
+    pub(super) found: Vec<Found>,
+    /// The front of two aims, from the least of the first one.
+    pub(super) front: Vec<Point>,
+    /// Of the best, test by test.
+    pub(super) floors: Vec<FloorTold>,
+    /// The scene with the best.
+    pub(super) text: String,
+    /// For figures: what becomes of the best along each number.
+    pub(super) slices: Vec<Vec<Looked>>,
+    /// What the command line asks for, in words.
+    pub(super) settings: Vec<(&'static str, String)>,
+}
+
+impl Found {
+    /// The better, the less: what keeps everything by its aim, what does not by how much it exceeds.
+    pub(super) fn rank(&self) -> (u8, f64) {
+        match &self.design {
+            Ok(own) if own.borne.is_some_and(|own| !own.is_enough()) => {
+                (1, -own.borne.map_or(0.0, |own| own.kept as f64))
+            }
+            Ok(own) if own.is_feasible => (0, own.aim),
+            Ok(own) => (2, -own.least_margin()),
+            Err(_) => (3, 0.0),
+        }
+    }
+}
+
+impl Answer {
+    /// The best design, with the choice of its words and steps.
+    pub(super) fn best(&self) -> Option<(&Choice, &Design)> {
+        let Found { choice, design } = self.found.first()?;
+        Some((choice, design.as_ref().ok()?))
+    }
+
+    /// The name of a test, where there is more than one.
+    pub(super) fn test_name(&self, test: usize) -> Option<&str> {
+        let name = &self.asked.tests[test].name;
+        (!name.is_empty()).then_some(name)
+    }
+
+    fn limits<'a>(&'a self, best: &'a Design) -> Vec<LimitTold<'a>> {
+        let each = best.kept.iter().filter_map(|kept| {
+            let Requirement::Limit(limit) = &kept.required.what else { return None };
+            let judged = best.runs[kept.required.test].judged();
+            let judged = judged.into_iter().find(|own| own.limit.is_same(limit))?;
+            Some(LimitTold { test: self.test_name(kept.required.test), judged, kept: kept.into() })
+        });
+        list(each)
+    }
+}
+
+/// What was asked of a requirement besides: whether it holds the design, and what more of it would change.
+#[derive(Serialize)]
+struct Held {
+    active: bool,
+    /// Change of the aim per unit of the bound.
+    price: Option<f64>,
+}
+
+impl From<&Kept> for Held {
+    fn from(own: &Kept) -> Self {
+        Self { active: own.is_active, price: own.price.filter(|own| own.is_finite()) }
+    }
+}
+
+/// A limit as a run tells it, with its test.
+#[derive(Serialize)]
+struct LimitTold<'a> {
+    test: Option<&'a str>,
+    #[serde(flatten)]
+    judged: Judged<'a>,
+    #[serde(flatten)]
+    kept: Held,
+}
+
+/// A number or word that was found.
+#[derive(Serialize)]
+pub(super) struct Parameter {
+    value: Option<f64>,
+    word: Option<String>,
+    unit: String,
+}
+
+/// The numbers and words of a design.
+pub(super) fn parameters(
+    asked: &Asked,
+    choice: &Choice,
+    values: &[f64],
+) -> Pairs<String, Parameter> {
+    let numbers = asked.numbers.iter().zip(values).map(|(own, value)| {
+        let unit = own.si.clone();
+        (own.name.clone(), Parameter { value: Some(*value), word: None, unit })
+    });
+    let chosen = asked.chosen(choice).map(|(name, own)| {
+        let Taken { value, si, text, .. } = own.clone();
+        let word = value.is_none().then_some(text);
+        (name.to_owned(), Parameter { value, word, unit: si })
+    });
+    numbers.chain(chosen).collect()
+}
+
+/// The measures of the runs of all tests, of each the one with the largest value.
+fn worst(runs: &[RunReport]) -> Pairs<String, impl Serialize + use<>> {
+    let first = runs.first().into_iter().flat_map(RunReport::told);
+    let each = first.map(|own| {
+        let all = runs.iter().filter_map(|run| run.measure(&own.key));
+        let size = |value: Option<f64>| value.unwrap_or(f64::NEG_INFINITY);
+        let most = all.max_by(|one, other| size(one.value).total_cmp(&size(other.value)));
+        let own = most.unwrap_or(own);
+        (own.key.clone(), object! { value: own.value, error: own.error, unit: own.unit })
+    });
+    each.collect()
+}
+
+impl Study for Answer {
+    fn text(&self, text: &mut Text) {
+        let Some((choice, best)) = self.best() else { return };
+        text.warnings(&self.warnings());
+        text.title(title(&self.scene));
+        text.faint(&words::asked(&self.asked));
+        text.blank();
+        for line in words::lines(self, choice, best) {
+            text.labelled(line.label, LABELS, &line.text);
+        }
+        for run in &best.runs {
+            scatter::table(run).iter().for_each(|own| text.rows_below(own));
+        }
+        tables::all(self, best).iter().for_each(|own| text.rows_below(own));
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut all: Vec<String> = Vec::new();
+        let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
+        for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
+            if !all.contains(&warning) {
+                all.push(warning);
+            }
+        }
+        all
+    }
+
+    fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
+        files::write(files, self)
+    }
+
+    fn object(&self) -> impl Serialize {
+        let best = self.best();
+        let design = best.map(|own| own.1);
+        let kept = || design.into_iter().flat_map(|own| &own.kept);
+        let depths = kept().filter_map(|own| {
+            let Requirement::Known(of) = &own.required.what else { return None };
+            let (test, held) = (self.test_name(own.required.test), Held::from(own));
+            let (active, price) = (held.active, held.price);
+            Some(object! { test, of, part: own.value, margin: own.margin, active, price })
+        });
+        let tests = design.into_iter().flat_map(|own| own.runs.iter().zip(&self.floors));
+        let tests = tests.enumerate().map(|(at, (run, floor))| {
+            let measures = worst(std::slice::from_ref(run));
+            let (name, scatter) = (self.test_name(at), &run.scatter);
+            object! { name, measures, floor: floor.object(run), scatter }
+        });
+        let front = self.front.iter().map(|own| {
+            let [(value, error), (other, other_error)] = own.aims(&self.asked);
+            object! {
+                least: object! { value, error },
+                and: object! { value: other, error: other_error },
+                parameters: parameters(&self.asked, &own.choice, &own.own.design.values),
+                active: words::active(&self.asked, &own.own.design),
+            }
+        });
+        let choices = self.found.iter().map(|own| {
+            let design = own.design.as_ref();
+            let values = design.map_or(&[][..], |own| &own.values);
+            object! {
+                parameters: parameters(&self.asked, &own.choice, values),
+                aim: design.ok().map(|own| own.aim),
+                feasible: design.is_ok_and(|own| own.is_feasible),
+                why: design.err().cloned(),
+            }
+        });
+        object! {
+            dashpot: VERSION,
+            parameters: best.map(|(choice, own)| parameters(&self.asked, choice, &own.values)),
+            least: self.asked.least.name(&self.asked),
+            and: self.asked.and.as_ref().map(|own| own.name(&self.asked)),
+            aim: design.map(|own| own.aim),
+            feasible: design.is_some_and(super::is_feasible),
+            measures: design.map(|own| worst(&own.runs)),
+            limits: design.map(|own| self.limits(own)),
+            depths: list(depths),
+            active: design.map(|own| words::active(&self.asked, own)),
+            floor: FloorTold::highest(&self.floors, design.map_or(&[], |own| &own.runs)),
+            tests: list(tests),
+            choices: list(choices),
+            front: list(front),
+            robust: design.and_then(|own| own.borne).map(|own| object! {
+                wanted: own.wanted, kept: own.kept, designs: own.designs, deviations: own.deviations,
+                enough: own.is_enough(),
+            }),
+            search: design.map(|own| own.search).map(|own| object! {
+                designs: own.designs, is_grid: own.is_grid, starts: own.starts, agree: own.agree,
+                feasible: own.feasible, solved: own.solved,
+            }),
+        }
+    }
+}

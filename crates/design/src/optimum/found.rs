@@ -1,0 +1,137 @@
+//! What a search has found.
+
+use dashpot_analysis::RunReport;
+
+use super::Required;
+
+/// What a requirement comes to in a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kept {
+    /// The requirement.
+    pub required: Required,
+    /// The measure in SI units, or the part of what is known to which the pad or law is pressed.
+    pub value: f64,
+    /// What is left, in parts of the bound; negative where it is exceeded.
+    pub margin: f64,
+    /// Whether it holds the design where it is.
+    pub is_active: bool,
+    /// By how much the aim would change per unit of the bound \[SI units\]; of what is active alone.
+    pub price: Option<f64>,
+}
+
+/// A design.
+#[derive(Debug)]
+pub struct Design {
+    /// The numbers, in SI units.
+    pub values: Vec<f64>,
+    /// The aim, in the worst test.
+    pub aim: f64,
+    /// What is required, test by test.
+    pub kept: Vec<Kept>,
+    /// For each number the change of the aim and of what is required, per unit of it; where numbers have a given sum, it
+    /// is taken from those behind it, and the last one has none.
+    pub slopes: Vec<Slope>,
+    /// Which numbers are at a bound.
+    pub at_bound: Vec<Option<Side>>,
+    /// Whether everything is kept; else it is the design that exceeds the least, in parts of the bounds.
+    pub is_feasible: bool,
+    /// How it was found.
+    pub search: Searched,
+    /// The designs that were spread, in the order of a grid, the last number fastest.
+    pub spread: Vec<Looked>,
+    /// What scatter leaves of it, where it was asked to bear some.
+    pub borne: Option<Borne>,
+    /// Its runs, one for each test, with their errors.
+    pub runs: Vec<RunReport>,
+}
+
+impl Design {
+    /// The least that is left to anything, in parts of its bound; negative where it is exceeded.
+    pub fn least_margin(&self) -> f64 {
+        self.kept.iter().map(|own| own.margin).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A design that was looked at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looked {
+    /// The numbers, in SI units.
+    pub values: Vec<f64>,
+    /// The aim in the worst test; not a number where the design cannot be solved.
+    pub aim: f64,
+    /// What each requirement comes to, in the order of [`Design::kept`]; empty where it cannot be solved.
+    pub required: Vec<f64>,
+    /// The largest excess of anything, in parts of its bound.
+    pub excess: f64,
+}
+
+/// What a sample of scattered designs keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Borne {
+    /// The part of them that has to keep everything.
+    pub wanted: f64,
+    /// Those that do …
+    pub kept: usize,
+    /// … of so many.
+    pub designs: usize,
+    /// How far limits are drawn in, in standard deviations of what the sample makes of each.
+    pub deviations: f64,
+}
+
+impl Borne {
+    /// Whether enough of them keep everything.
+    pub fn is_enough(&self) -> bool {
+        self.kept as f64 >= self.wanted * self.designs as f64
+    }
+}
+
+/// Derivatives with respect to one number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slope {
+    /// Of the aim in the worst test.
+    pub aim: f64,
+    /// Of each requirement's value.
+    pub values: Vec<f64>,
+}
+
+/// A bound of a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The least value.
+    Low,
+    /// The largest.
+    High,
+}
+
+/// How a design was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Searched {
+    /// Designs that were spread over the bounds.
+    pub designs: usize,
+    /// Whether those are all points of a grid.
+    pub is_grid: bool,
+    /// Starts of the search …
+    pub starts: usize,
+    /// … and how many of them ended there.
+    pub agree: usize,
+    /// Designs of which everything is kept, among those that were spread.
+    pub feasible: usize,
+    /// Designs that were solved in all.
+    pub solved: usize,
+}
+
+/// The best designs of two aims: none of them has less of one without more of the other.
+#[derive(Debug)]
+pub struct Front {
+    /// From the least of the first aim to the least of the second.
+    pub points: Vec<FrontPoint>,
+}
+
+/// A design of a front.
+#[derive(Debug)]
+pub struct FrontPoint {
+    /// The least of the first aim …
+    pub design: Design,
+    /// … where the second one, in the worst test, is at most this.
+    pub other: f64,
+}

@@ -1,0 +1,247 @@
+//! What `dashpot design` answers besides the best numbers: fronts, scatter, sums and orders, sections and folders.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, out, run, text};
+
+/// 5 kg at 4 m/s on an elastic block whose strain is at most 1: peak² · thickness = v² E A/m, and peak · depth = v².
+const BLOCK: &str = r#"title = "An elastic block"
+
+[materials.rubber]
+parallel = [{ spring = "1 MPa" }]
+
+[nodes]
+head = { mass = "5 kg", velocity = "4 m/s" }
+
+[elements]
+pad = { between = ["head", "ground"], material = "rubber", thickness = "30 mm", area = "40 cm^2" }
+
+[run]
+duration = "80 ms"
+"#;
+
+const BOTH: [&str; 4] = ["--vary", "pad.thickness=10..40 mm", "--vary", "pad.area=5..200 cm^2"];
+
+fn number(own: &Value) -> f64 {
+    own.as_f64().unwrap_or(f64::NAN)
+}
+
+fn squeezed(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn the_front_of_thickness_and_peak_is_a_hyperbola() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "block.toml", BLOCK);
+    let results = folder.path().join("results");
+    let both = ["--least", "pad.thickness", "--and", "head.peak-acceleration", "--points", "5"];
+    let arguments = [&["design", text(&path)][..], &BOTH, &both].concat();
+    let own = json(&[&arguments[..], &["--json"]].concat());
+    let front = own["front"].as_array().unwrap();
+    assert_eq!(front.len(), 5, "{front:?}");
+    for point in front {
+        // Pressed to its thickness: peak · thickness = v².
+        let [thickness, peak] = ["least", "and"].map(|own| number(&point[own]["value"]));
+        assert!((thickness * peak / 16.0 - 1.0).abs() < 1e-5, "{point}");
+        assert!(number(&point["and"]["error"]) < 1e-6 * peak, "{point}");
+        assert_eq!(point["active"][0], "what is known of pad");
+    }
+    let ends = [0, 4].map(|at: usize| number(&front[at]["least"]["value"]));
+    assert!((ends[0] - 0.01).abs() < 1e-7 && (ends[1] - 0.04).abs() < 1e-6, "{ends:?}");
+
+    let output = run(&[&arguments[..], &["--out", text(&results)]].concat());
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let said = squeezed(&out(&output));
+    assert!(said.contains("front 5 designs, each with the least pad.thickness"), "{said}");
+    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    assert!(read("front.svg").contains("The least pad.thickness for its head.peak-acceleration"));
+    assert!(read("map.svg").contains("what is known of pad") && read("map.svg").contains("best"));
+    assert!(read("limits-1.svg").contains("used of what is allowed"));
+    assert!(read("report.html").contains("What was found"));
+    assert_eq!(read("front.csv").lines().count(), 6);
+    let found: Value = serde_json::from_str(&read("result.json")).unwrap();
+    assert_eq!(found["front"].as_array().unwrap().len(), 5);
+    // No design of the grid that keeps everything has less of both.
+    let table = read("designs.csv");
+    let mut rows = table.lines();
+    let header: Vec<&str> = rows.next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|own| own.contains(name)).unwrap();
+    let (thickness, area, known) =
+        (column("pad.thickness"), column("pad.area"), column("what is known"));
+    for row in rows {
+        let cells: Vec<f64> = row.split(',').map(|own| own.parse().unwrap_or(f64::NAN)).collect();
+        if cells[known] <= 1.0 {
+            // Its peak is v √(E A/(m T)).
+            let peak = 4.0 * (1e6 * cells[area] / (5.0 * cells[thickness])).sqrt();
+            assert!(cells[thickness] * peak > 16.0 * (1.0 - 1e-9), "{row}");
+        }
+    }
+}
+
+#[test]
+fn areas_and_other_numbers_are_told_in_the_units_of_the_scene() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "block.toml", BLOCK);
+    let least = ["--least", "head.peak-acceleration"];
+    let own = squeezed(&out(&run(&[&["design", text(&path)][..], &BOTH, &least].concat())));
+    assert!(own.contains("between 5 cm^2 and 200 cm^2"), "{own}");
+    assert!(
+        own.contains("pad.thickness = 40.000 mm, between 10 mm and 40 mm, AT ITS UPPER"),
+        "{own}"
+    );
+    // Steps alone: no search, no derivatives, and no digits of a division.
+    let steps = ["--vary", "pad.thickness=10..40 mm,20", "--least", "head.peak-acceleration"];
+    let own = run(&[&["design", text(&path)][..], &steps].concat());
+    let own = squeezed(&out(&own));
+    assert!(own.contains("search all 20 choices are solved"), "{own}");
+    assert!(own.contains("38.42105 mm") && !own.contains("1 % more of"), "{own}");
+    let own = json(&[&["design", text(&path), "--json"][..], &steps].concat());
+    assert_eq!(own["tests"][0]["name"], Value::Null);
+    assert!(own["measures"]["head.peak-acceleration"]["value"].is_f64(), "{}", own["measures"]);
+    assert_eq!(own["floor"]["head.peak-acceleration"]["unit"], "m/s^2");
+}
+
+#[test]
+fn a_section_sets_options_and_the_command_stands_above_it() {
+    let folder = TempDir::new().unwrap();
+    let section = "\n[design]\nvary = [\"pad.thickness=10..40 mm\", \"pad.area=5..200 cm^2\"]\n\
+                   least = \"pad.thickness\"\nlimit = \"head.peak-acceleration<=60 g\"\nsample = 100\n";
+    let path = file(&folder, "block.toml", &(BLOCK.to_owned() + section));
+    let best = folder.path().join("best.toml");
+    assert_eq!(code(&run(&["check", text(&path)])), 0);
+    let own = json(&["design", text(&path), "--json"]);
+    // T = v²/peak.
+    let right = 16.0 / (60.0 * 9.80665);
+    assert!((number(&own["aim"]) / right - 1.0).abs() < 1e-5, "{}", own["aim"]);
+    assert_eq!(own["search"]["designs"], 100);
+    let own = json(&["design", text(&path), "--limit", "head.peak-acceleration<=80 g", "--json"]);
+    assert!((number(&own["aim"]) / (0.75 * right) - 1.0).abs() < 1e-5, "{}", own["aim"]);
+    // It stays in the scene that is written, which passes.
+    assert_eq!(code(&run(&["design", text(&path), "--out", text(&best)])), 0);
+    let written = fs::read_to_string(&best).unwrap();
+    assert!(written.contains("[design]") && written.contains(" cm^2\""), "{written}");
+    let limit = ["--limit", "head.peak-acceleration<=60 g", "--enforce"];
+    assert_eq!(code(&run(&[&["run", text(&best)][..], &limit].concat())), 0);
+    let solved = json(&["design", text(&path), "--solve-for", "pad.area", "--json"]);
+    assert!(
+        solved["parameters"]["pad.thickness"].is_null()
+            && solved["parameters"]["pad.area"].is_object()
+    );
+    let wrong =
+        file(&folder, "wrong.toml", &(BLOCK.to_owned() + "\n[design]\nvari = \"K=1..2\"\n"));
+    let output = run(&["design", text(&wrong)]);
+    assert!(code(&output) == 2 && err(&output).contains("vari"), "{}", err(&output));
+}
+
+#[test]
+fn a_robust_design_passes_with_the_probability_that_is_asked_for() {
+    let folder = TempDir::new().unwrap();
+    // v √(K m) ≤ F with 90 % where K is at its 90 % value.
+    let scene = "[nodes]\nhead = { mass = \"4 kg\", velocity = \"5 m/s\" }\n[elements]\n\
+                 pad = { between = [\"head\", \"ground\"], spring = \"40 ± 4 kN/m\" }\n\
+                 [limits]\npad.peak-force = \"2.5 kN\"\n[run]\nduration = \"100 ms\"\n\
+                 [design]\nvary = \"head.mass=1..20 kg\"\nleast = \"head.peak-acceleration\"\n";
+    let path = file(&folder, "spring.toml", scene);
+    let plain = json(&["design", text(&path), "--json"]);
+    let mass = |own: &Value| number(&own["parameters"]["head.mass"]["value"]);
+    assert!((mass(&plain) / 6.25 - 1.0).abs() < 1e-4, "{}", mass(&plain));
+    // On its limit, half of them fail.
+    let chance = |own: &Value| number(&own["tests"][0]["scatter"]["limits"][0]["probability"]);
+    assert!((chance(&plain) - 0.5).abs() < 0.02, "{}", chance(&plain));
+    let robust = json(&["design", text(&path), "--robust", "90%", "--json"]);
+    let right = (2500.0_f64 / 5.0).powi(2) / (40e3 + 1.281_552 * 4e3);
+    assert!((mass(&robust) / right - 1.0).abs() < 5e-3, "{} {right}", mass(&robust));
+    assert!(robust["robust"]["enough"] == true && (chance(&robust) - 0.9).abs() < 0.02);
+    let said = squeezed(&out(&run(&["design", text(&path), "--robust", "90%"])));
+    assert!(
+        said.contains("with a probability of 90.0 %") && said.contains("probability to pass 9"),
+        "{said}"
+    );
+    // Without scatter there is nothing to bear.
+    let bare = file(&folder, "bare.toml", &scene.replace(" ± 4", ""));
+    let output = run(&["design", text(&bare), "--robust", "90%"]);
+    assert!(code(&output) == 2 && err(&output).contains("no number of the scene has scatter"));
+}
+
+/// Two layers with a free joint between them.
+const STACK: &str = r#"[materials.soft]
+parallel = [{ spring = "0.1 MPa" }, { dashpot = "20 Pa s" }]
+
+[materials.hard]
+parallel = [{ spring = "0.5 MPa" }, { dashpot = "4 kPa s" }]
+
+[nodes]
+head = { mass = "5 kg", velocity = "3 m/s" }
+between = {}
+
+[elements]
+front = { between = ["head", "between"], material = "soft", thickness = "30 mm", area = "150 cm^2" }
+back  = { between = ["between", "ground"], material = "hard", thickness = "30 mm", area = "150 cm^2" }
+
+[run]
+duration = "80 ms"
+"#;
+
+#[test]
+fn layers_without_mass_answer_the_same_in_any_order() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "stack.toml", STACK);
+    let own = json(&[
+        "design",
+        text(&path),
+        "--vary",
+        "front.thickness=2..58 mm",
+        "--vary",
+        "back.thickness=2..58 mm",
+        "--total",
+        "front.thickness+back.thickness=60 mm",
+        "--vary",
+        "front.material,back.material=soft,hard",
+        "--least",
+        "head.peak-acceleration",
+        "--json",
+    ]);
+    let choices = own["choices"].as_array().unwrap();
+    assert_eq!(choices.len(), 2);
+    let aims = [0, 1].map(|at: usize| number(&choices[at]["aim"]));
+    assert!((aims[0] / aims[1] - 1.0).abs() < 1e-6, "{aims:?}");
+    let thickness = |at: usize, name: &str| number(&choices[at]["parameters"][name]["value"]);
+    for at in [0, 1] {
+        let sum = thickness(at, "front.thickness") + thickness(at, "back.thickness");
+        assert!((sum - 0.06).abs() < 1e-12, "{sum}");
+    }
+    let crossed = thickness(0, "front.thickness") - thickness(1, "back.thickness");
+    assert!(crossed.abs() < 2e-4, "{choices:?}");
+}
+
+#[test]
+fn what_contradicts_itself_says_what_to_write() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "block.toml", BLOCK);
+    let least = ["--least", "head.peak-acceleration"];
+    let vary = &BOTH[..];
+    let cases: [(&[&str], &str); 7] = [
+        (&["--total", "pad.thickness+pad.area=3 mm"], "do not measure the same"),
+        (&["--total", "pad.thickness=30 mm"], "two numbers or more"),
+        (&["--total", "pad.thickness+pad.width=30 mm"], "`pad.width` does not vary"),
+        (&["--and", "head.peak-acceleration"], "made least already"),
+        (&["--set", "pad.thickness=20 mm"], "set and varied"),
+        (&["--test", "thin: pad.thickness=20 mm"], "set and varied"),
+        (&["--robust", "20%"], "at least 50%"),
+    ];
+    for (arguments, told) in cases {
+        let output = run(&[&["design", text(&path)][..], vary, &least, arguments].concat());
+        let said = squeezed(&err(&output));
+        assert!(code(&output) == 2 && said.contains(told), "{arguments:?}: {said}");
+    }
+    let output = run(&["design", text(&path), "--least", "head.peak-acceleration"]);
+    assert!(code(&output) == 2 && err(&output).contains("what may vary"), "{}", err(&output));
+    let one = ["--vary", "pad.material,head.mass=rubber"];
+    let output = run(&[&["design", text(&path)][..], &one, &least].concat());
+    let said = squeezed(&err(&output));
+    assert!(code(&output) == 2 && said.contains("as many words as names"), "{said}");
+}
