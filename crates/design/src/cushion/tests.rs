@@ -128,7 +128,7 @@ fn the_thinnest_cushion_is_the_root_of_the_closed_form() {
         near(thickness, right, 1e-5);
         near(peak / G0, closed(answer.height, right, over[0]), 1e-4);
         near(stress, over[0], 1e-12);
-        assert_eq!(answer.is_first, right == 0.03);
+        assert_eq!(answer.is_first, of_limit.max(of_depth) <= 0.03);
     }
 }
 

@@ -84,9 +84,7 @@ pub fn front(
 fn levels(from: f64, to: f64, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |at| {
         let share = at as f64 / (count - 1).max(1) as f64;
-        let level =
-            if to > 0.0 { from * (to / from).powf(share) } else { from + (to - from) * share };
-        level
+        if to > 0.0 { from * (to / from).powf(share) } else { from + (to - from) * share }
     })
 }
 

@@ -55,7 +55,7 @@ pub fn wishes(verb: &str, text: &str, file: Option<&str>) -> Result<Vec<Wish>, D
     let Some(entries) = section.item.table() else {
         faults.error(
             section.key_place,
-            Fault::odd(format!("`{verb}` is a table"), &format!("write `[{verb}]`")),
+            Fault::odd(format!("`{verb}` is a table"), format!("write `[{verb}]`")),
         );
         return Err(faults.finish());
     };

@@ -51,7 +51,7 @@ impl Among {
     }
 
     /// Of one variation, or of all orders of the words of several.
-    pub(super) fn of(group: Vec<(Variation, usize)>) -> Result<Self, CliError> {
+    pub(super) fn of(group: Vec<(Variation, usize)>) -> Self {
         let count = group.first().map_or(0, |own| own.0.len());
         let orders = orders(count, group.len());
         let option = |order: &Vec<usize>| {
@@ -59,7 +59,7 @@ impl Among {
         };
         let options = orders.iter().map(option).collect();
         let (variations, places): (Vec<Variation>, Vec<usize>) = group.into_iter().unzip();
-        Ok(Self { names: list(variations.into_iter().map(|own| own.name)), places, options })
+        Self { names: list(variations.into_iter().map(|own| own.name)), places, options }
     }
 
     /// How many options there are.
@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(orders(2, 2), [[0, 1], [1, 0]]);
         assert_eq!(orders(4, 3).len(), 24);
         let group = Among::parse("a.material, b.material = soft,hard").unwrap();
-        let own = Among::of(group.into_iter().zip([3, 5]).collect()).unwrap();
+        let own = Among::of(group.into_iter().zip([3, 5]).collect());
         assert_eq!(own.names, ["a.material", "b.material"]);
         let written: Vec<_> = own.written(1).collect();
         assert_eq!(written, [(3, "hard".to_owned()), (5, "soft".to_owned())]);

@@ -122,7 +122,7 @@ impl Asked {
                     let of_command = (&*own.unit, own.dimension);
                     self.add((&own.name, *at), bounds, of_command, "--vary")?;
                 }
-                _ => self.among.push(Among::of(group)?),
+                _ => self.among.push(Among::of(group)),
             }
         }
         Ok(())

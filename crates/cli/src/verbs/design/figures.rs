@@ -212,13 +212,12 @@ pub(super) fn map(answer: &Answer, best: &Design) -> Option<Map> {
     })
 }
 
+/// A value of each design, in the order of a map.
+type Turned<'t> = dyn Fn(&dyn Fn(&Looked) -> f64) -> Vec<f64> + 't;
+
 /// What the colours of a map show: what is made least, or where that is a number itself, the first limit, or how much is
 /// used of what is known of the first pad.
-fn shown(
-    asked: &Asked,
-    best: &Design,
-    turned: &dyn Fn(&dyn Fn(&Looked) -> f64) -> Vec<f64>,
-) -> Option<(Vec<f64>, Unit, String)> {
+fn shown(asked: &Asked, best: &Design, turned: &Turned<'_>) -> Option<(Vec<f64>, Unit, String)> {
     let largest = |all: &[f64]| {
         all.iter().filter(|own| own.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()))
     };
@@ -234,12 +233,10 @@ fn shown(
         _ => None,
     });
     let of = |at: usize| turned(&|own| own.required.get(at).copied().unwrap_or(f64::NAN));
-    match limit {
-        Some((at, limit)) => Some(in_unit(of(at), &limit.key)),
-        None => {
-            let first = best.kept.first()?;
-            let values = list(of(0).iter().map(|own| 100.0 * own));
-            Some((values, Unit::new("%", 0.01), format!("used of {}", what(asked, first))))
-        }
+    if let Some((at, limit)) = limit {
+        return Some(in_unit(of(at), &limit.key));
     }
+    let first = best.kept.first()?;
+    let values = list(of(0).iter().map(|own| 100.0 * own));
+    Some((values, Unit::new("%", 0.01), format!("used of {}", what(asked, first))))
 }

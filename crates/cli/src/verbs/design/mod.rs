@@ -188,7 +188,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     };
     let mut found = list(asked.choices().into_iter().map(|choice| {
         let design = searched(arguments, &posing, &choice).map_err(|error| error.to_string());
-        Found { design, choice }
+        Found { choice, design }
     }));
     found.sort_by(|one, other| {
         one.rank().partial_cmp(&other.rank()).unwrap_or(std::cmp::Ordering::Equal)
