@@ -13,7 +13,10 @@ use dashpot_scene::{
     with_units,
 };
 
-use crate::error::{CliError, reason};
+use crate::{
+    error::{CliError, reason},
+    host,
+};
 
 /// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
 const MAX_BYTES: u64 = 64 << 20;
@@ -37,6 +40,9 @@ impl Input {
     /// The built-in scene of this name, a file, or standard input for `-`.
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.to_string_lossy();
+        if let Some(text) = host::text(&name) {
+            return Ok(Self { file: name.into_owned(), bytes: text.into_bytes() });
+        }
         if !path.is_file()
             && let Some(shipped) = references().iter().find(|shipped| shipped.name == name)
         {
@@ -109,7 +115,11 @@ fn similar(path: &Path) -> Option<String> {
 }
 
 /// The bytes of a file that a scene names.
-pub(crate) fn load(path: &str) -> Result<Vec<u8>, String> {
+///
+/// # Errors
+///
+/// Why it cannot be read: it is not there, no regular file, or too large.
+pub fn load(path: &str) -> Result<Vec<u8>, String> {
     bytes_of(Path::new(path)).map_err(|error| reason(&error))
 }
 

@@ -7,6 +7,7 @@ mod args;
 mod cancel;
 mod error;
 mod folder;
+mod host;
 mod input;
 mod measured;
 mod non_identifiable;
@@ -28,6 +29,11 @@ mod verbs;
 use std::{io::ErrorKind, process::ExitCode};
 
 use clap::Parser;
+
+pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
+pub use input::load;
+pub use sketch::drawing;
+pub use verbs::run::RunOptions;
 
 use error::{CliError, Status};
 use terminal::Terminal;

@@ -11,7 +11,7 @@ use dashpot_scene::units::format_quantity;
 use dashpot_units::percent;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
-use crate::{numbers::duration, terminal::note};
+use crate::{host, numbers::duration, terminal::note};
 
 /// Shorter runs have no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -39,6 +39,9 @@ impl Bar {
 
     /// Shows which share is done, with a word on it.
     pub(crate) fn show(&mut self, share: f64, message: impl FnOnce() -> String) -> ControlFlow<()> {
+        if let Some(answer) = host::progress(share.clamp(0.0, 1.0)) {
+            return answer;
+        }
         let elapsed = self.started.elapsed();
         if !self.is_seen {
             if self.is_due(elapsed) {

@@ -59,6 +59,11 @@ pub(crate) fn figure(scene: &Scene) -> Option<ReportFigure> {
     of_network(&scene.network, scene.run.duration)
 }
 
+/// The drawing of a scene's network as SVG, unless there is too much to be drawn.
+pub fn drawing(scene: &Scene) -> Option<String> {
+    figure(scene).map(|own| own.svg)
+}
+
 /// The drawing of a network for a page, likewise.
 pub(crate) fn of_network(network: &Network, duration: f64) -> Option<ReportFigure> {
     let is_drawn = network.connections().len() <= MOST_DRAWN;

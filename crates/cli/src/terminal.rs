@@ -8,7 +8,7 @@ use std::{
 use clap::builder::styling::{AnsiColor, Style};
 use dashpot_scene::{Diagnostics, visible};
 
-use crate::{args::When, error::CliError, text::hanging};
+use crate::{args::When, error::CliError, host, text::hanging};
 
 /// Columns of text.
 pub(crate) const WIDTH: usize = 80;
@@ -52,6 +52,12 @@ impl Terminal {
         Self { output, error, is_one }
     }
 
+    /// Nobody reads.
+    pub(crate) fn unattended() -> Self {
+        let nobody = Stream { attended: false, colored: false };
+        Self { output: nobody, error: nobody, is_one: false }
+    }
+
     /// The text in the colour of its tone, for standard output.
     pub(crate) fn toned(self, tone: Tone, text: &str) -> String {
         if self.output.colored { marked(tone, text) } else { text.to_owned() }
@@ -59,7 +65,9 @@ impl Terminal {
 
     /// Warns on standard error.
     pub(crate) fn warn(self, text: &str) {
-        self.labelled("warning", Tone::Warning, text);
+        if !host::said(host::Tone::Warning, text, None) {
+            self.labelled("warning", Tone::Warning, text);
+        }
     }
 
     /// Tells of an error and of what to do.
@@ -72,7 +80,11 @@ impl Terminal {
 
     /// Tells of an error, after a word on where it happened, and of what to do.
     pub(crate) fn fail(self, prefix: &str, error: &CliError) {
-        self.labelled("error", Tone::Error, &format!("{prefix}{error}"));
+        let text = format!("{prefix}{error}");
+        if host::said(host::Tone::Error, &text, error.help()) {
+            return;
+        }
+        self.labelled("error", Tone::Error, &text);
         if let Some(help) = error.help() {
             self.labelled("help", Tone::Help, &help);
         }
@@ -80,7 +92,7 @@ impl Terminal {
 
     /// Shows faults of a text, or what is odd about it.
     pub(crate) fn diagnose(self, diagnostics: &Diagnostics) {
-        if !diagnostics.is_empty() {
+        if !diagnostics.is_empty() && !host::diagnosed(diagnostics) {
             // Its texts are visible already, and it has colours of its own.
             put(&diagnostics.render_within(self.error.colored, WIDTH));
         }
@@ -123,11 +135,14 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
 
 /// Prints for programs to standard output: as it is, unless that is a terminal.
 pub(crate) fn print_data(text: &str) -> Result<(), CliError> {
-    if io::stdout().is_terminal() { print(text) } else { print_raw(text) }
+    if io::stdout().is_terminal() && !host::is_called() { print(text) } else { print_raw(text) }
 }
 
 /// A reader that has gone away is no error.
 fn print_raw(text: &str) -> Result<(), CliError> {
+    if host::printed(text) {
+        return Ok(());
+    }
     let mut output = io::stdout().lock();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CliError::Output(error)),
@@ -137,7 +152,9 @@ fn print_raw(text: &str) -> Result<(), CliError> {
 
 /// Says on standard error what may be of interest.
 pub(crate) fn note(text: &str) {
-    message(&hanging(&format!("note: {text}"), WIDTH));
+    if !host::said(host::Tone::Note, text, None) {
+        message(&hanging(&format!("note: {text}"), WIDTH));
+    }
 }
 
 /// Says something on standard error, with no control characters but ours.

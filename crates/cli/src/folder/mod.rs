@@ -15,6 +15,7 @@ use std::{
 use self::list::List;
 use crate::{
     error::{CliError, unwritable},
+    host,
     part::{Fingerprint, Part, metadata, part_name, token},
     terminal::{WIDTH, message, print},
     text::wrapped,
@@ -72,7 +73,9 @@ impl Folder {
         add(&mut files)?;
         let report = files.finish(result)?;
         if beside {
-            message(&report);
+            if !host::said(host::Tone::Note, &report, None) {
+                message(&report);
+            }
             return Ok(());
         }
         print(&format!("\n{report}\n"))

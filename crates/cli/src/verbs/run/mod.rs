@@ -12,6 +12,7 @@ mod floor;
 mod limits;
 mod measures;
 mod object;
+mod options;
 mod order;
 pub(super) mod recorded;
 mod resolved_scene;
@@ -23,10 +24,7 @@ mod verdict;
 use std::{collections::HashMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
-use dashpot_analysis::{
-    Accuracy, Difference, RunError, RunReport, SolveSettings, Warning, ask, differences,
-    solve_partial,
-};
+use dashpot_analysis::{Difference, RunReport, SolveSettings, Warning, differences, solve_partial};
 use dashpot_plot::{
     RunSeries,
     figures::{FORCE_TIME, Figure},
@@ -34,6 +32,7 @@ use dashpot_plot::{
 use dashpot_scene::Scene;
 use serde::Serialize;
 
+pub use self::options::RunOptions;
 use self::{
     beside::{Beside, MeasuredArguments, MeasuredCurve},
     designs::{Design, Designs, Named},
@@ -347,10 +346,11 @@ fn solve_all(
     terminal: Terminal,
 ) -> Result<Answer, CliError> {
     let mut asked: Vec<SolveSettings> = Vec::new();
+    let options = RunOptions::of(arguments);
     let methods = if arguments.method.is_empty() { &scene.run.methods } else { &arguments.method };
     for method in methods {
         if asked.iter().all(|own| own.method.name() != method) {
-            asked.push(settings(&scene, method, arguments)?);
+            asked.push(options.settings(&scene, method)?);
         }
     }
     let assembly = Arc::new(scene.assembly.clone());
@@ -388,26 +388,6 @@ fn solve_all(
 
 fn is_new(runs: &[RunReport], report: &RunReport) -> bool {
     runs.iter().all(|run| run.solver.method != report.solver.method)
-}
-
-fn settings(
-    scene: &Scene,
-    method: &str,
-    arguments: &RunArguments,
-) -> Result<SolveSettings, RunError> {
-    let mut settings = scene.settings(method)?;
-    settings.estimate = arguments.estimate == Switch::On;
-    settings.budget = arguments.budget.unwrap_or(settings.budget);
-    settings.rtol = arguments.rtol.or(settings.rtol);
-    if let Some(accuracy) = arguments.accuracy {
-        let neglect_below = settings.accuracy.neglect_below;
-        settings.accuracy = Accuracy { neglect_below, ..Accuracy::of_all(accuracy) };
-        // A tolerance of the scene would keep the accuracy from being sought.
-        settings.rtol = None;
-    }
-    settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-    ask(&scene.assembly, &mut settings, &arguments.measure)?;
-    Ok(settings)
 }
 
 impl Study for Answer {

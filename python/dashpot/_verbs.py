@@ -1,0 +1,246 @@
+"""The verbs of the command, with the same numbers: each returns its object of ``--json``."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import tempfile
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _dashpot
+from ._errors import DashpotWarning, RunError, SceneError
+from ._scene import Progress, Report, Scene
+
+
+class Result(dict[str, Any]):
+    """What a verb found, in SI units, as ``--json`` has it; `status` is the exit code of the command: 0, or 3 where
+    two models are not the same, or 4 where a limit that is enforced is not kept. `notes` is what was said besides.
+    """
+
+    def __init__(self, found: Mapping[str, Any], status: int, said: list[dict[str, Any]]) -> None:
+        super().__init__(found)
+        self.status, self.said = status, said
+
+    @property
+    def notes(self) -> list[str]:
+        """What was said besides, in sentences."""
+        return [own["message"] for own in self.said if own["tone"] == "note"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self), self.status, self.said)
+
+
+def call(
+    verb: str, *operands: Any, progress: Progress | None = None, **options: Any
+) -> Result:
+    """Calls a verb of the command: ``call("compare", "a.toml:pad", "b.toml:pad", within="1%")``.
+
+    Args:
+        operands: paths and words; a `Scene` stands for its text.
+        options: those of the command, with ``_`` for dashes: a text or number as it is, ``True`` for a switch, a list
+            for one that is repeated, and for ``vary`` a dictionary of names and values.
+
+    Raises:
+        SceneError, RunError: as the command ends with exit code 2 and 1.
+    """
+    status, output, said = _called(verb, operands, {**options, "json": True}, progress)
+    return Result(json.loads(output), status, said)
+
+
+def _called(
+    verb: str, operands: tuple[Any, ...], options: Mapping[str, Any], progress: Progress | None
+) -> tuple[int, str, list[dict[str, Any]]]:
+    texts: dict[str, str] = {}
+    words = [_operand(own, texts) for own in operands]
+    scene = next((own for own in operands if isinstance(own, Scene)), None)
+    arguments = [verb, *words]
+    for name, value in options.items():
+        arguments += _option("--" + name.replace("_", "-"), value, scene)
+    status, output, said = _dashpot.call(arguments, texts, progress)
+    errors = [own for own in said if own["tone"] == "error"]
+    if status in (1, 2) and not output.strip():
+        raise (SceneError if status == 2 else RunError)(errors)
+    for own in said:
+        if own["tone"] == "warning":
+            warnings.warn(DashpotWarning(own["message"], verb), stacklevel=4)
+    return status, output, said
+
+
+def _operand(operand: Any, texts: dict[str, str]) -> str:
+    if isinstance(operand, Scene):
+        name = operand.file or "scene.toml"
+        if operand.file is None or operand.text != operand._base or name in texts:
+            while texts.get(name, operand.text) != operand.text:
+                name = f"{name}-"
+            texts[name] = operand.text
+        return name
+    return os.fspath(operand)
+
+
+def _option(flag: str, value: Any, scene: Scene | None) -> list[str]:
+    if value is None or value is False:
+        return []
+    if value is True:
+        return [flag]
+    if isinstance(value, Mapping):
+        return [part for key, own in value.items() for part in (flag, f"{key}={_values(key, own, scene)}")]
+    if isinstance(value, (list, tuple)):
+        return [part for own in value for part in (flag, str(own))]
+    return [flag, str(value)]
+
+
+def _values(name: str, value: Any, scene: Scene | None) -> str:
+    if isinstance(value, str):
+        return value
+    own = np.asarray(value).ravel().tolist()
+    if all(isinstance(one, str) for one in own) or scene is None:
+        return ",".join(map(str, own))
+    return ",".join(scene.written(name, one) for one in own)
+
+
+def _verb(name: str, doc: str) -> Any:
+    def function(*operands: Any, progress: Progress | None = None, **options: Any) -> Result:
+        return call(name, *operands, progress=progress, **options)
+
+    function.__name__ = function.__qualname__ = name
+    function.__doc__ = f"""{doc}
+
+    As ``dashpot {name}``: its operands, and its options with ``_`` for dashes; the object of ``--json`` in SI units.
+    """
+    return function
+
+
+convert = _verb("convert", "Writes a model in another form that does the same, and says how nearly.")
+compare = _verb("compare", "Whether two models or networks are the same from outside; `status` 3 where not.")
+rheometer = _verb("rheometer", "Tests a model alone: creep, relaxation, oscillation.")
+vibrate = _verb("vibrate", "Shakes a linear scene with a sine: transmissibility, resonances, peaks.")
+signal = _verb("signal", "Reads measured channels: offset, CFC filter, peak, HIC, clips.")
+fit = _verb("fit", "Fits numbers of a scene, or a material, to measurements, with their intervals.")
+design = _verb("design", "The best numbers of a scene within its limits, and what no pad can beat.")
+cushion = _verb("cushion", "Cushion curves: peak g over static stress.")
+groups = _verb("groups", "Dimensionless groups, and whether scenes are similar.")
+cost = _verb("cost", "What accuracy costs: true errors of every method against time and work.")
+
+
+class Sweep:
+    """A sweep: arrays over its grid, of which each parameter is one axis; of listed or sampled designs all have one.
+
+    Attributes:
+        parameters: the values of each parameter along its axis, in SI units; words as texts.
+        units: the SI unit of each parameter and measure.
+        object: all of it, as ``dashpot sweep --json`` has it.
+    """
+
+    def __init__(self, found: Result) -> None:
+        self.object = found
+        own = found["parameters"]
+        self.parameters = {one["name"]: np.asarray(one["values"]) for one in own}
+        self._measures = {_column(one): one for one in found["measures"]}
+        self.units = {one["name"]: one["unit"] for one in own}
+        self.units |= {key: one["unit"] for key, one in self._measures.items()}
+        is_grid = not found["listed"]
+        self.shape = tuple(len(own) for own in self.parameters.values()) if is_grid else (found["points"],)
+
+    def __getitem__(self, key: str) -> np.ndarray:
+        """The values of a measure over the grid, in its SI unit; NaN where it has none."""
+        return self._array(key, "values")
+
+    def error(self, key: str) -> np.ndarray:
+        """The absolute errors of a measure over the grid; NaN where they are not known."""
+        return self._array(key, "errors")
+
+    def _array(self, key: str, what: str) -> np.ndarray:
+        if key not in self._measures:
+            raise KeyError(f"there is no measure {key!r}; there are {', '.join(self._measures)}")
+        return np.asarray(self._measures[key][what], dtype=float).reshape(self.shape)
+
+    @property
+    def measures(self) -> list[str]:
+        """The keys of its measures."""
+        return list(self._measures)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """A table with one row for each point: the parameters, then each measure and its error."""
+        values = list(self.parameters.values())
+        if len(self.shape) == len(values) and not self.object["listed"]:
+            values = [own.ravel() for own in np.meshgrid(*values, indexing="ij")]
+        table = dict(zip(self.parameters, values, strict=True))
+        for key in self._measures:
+            table[key] = self[key].ravel()
+            table[f"{key} error"] = self.error(key).ravel()
+        return table
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table as an Arrow stream, for ``pyarrow.table``, ``polars.DataFrame``, DuckDB and pandas."""
+        rows = [(name, own.tolist()) for name, own in self.columns().items()]
+        return _dashpot.Columns(rows).__arrow_c_stream__(requested_schema)
+
+    def to_pandas(self) -> Any:
+        """The table as a data frame of pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.columns())
+
+    def to_xarray(self) -> Any:
+        """Measures and their errors over the parameters, with units as attributes."""
+        import xarray
+
+        dimensions = list(self.parameters) if not self.object["listed"] else ["design"]
+        data = {}
+        for key in self._measures:
+            data[key] = (dimensions, self[key], {"units": self.units[key]})
+            data[f"{key} error"] = (dimensions, self.error(key), {"units": self.units[key]})
+        along = [[name] if not self.object["listed"] else "design" for name in self.parameters]
+        coordinates = {
+            name: (own, values, {"units": self.units[name] or ""})
+            for own, (name, values) in zip(along, self.parameters.items(), strict=True)
+        }
+        return xarray.Dataset(data, coordinates, {"title": self.object["title"] or ""})
+
+    def __repr__(self) -> str:
+        axes = " × ".join(f"{name} ({len(own)})" for name, own in self.parameters.items())
+        return f"<dashpot.Sweep of {axes}: {', '.join(self._measures)}>"
+
+
+def sweep(
+    scene: Any,
+    vary: Mapping[str, Any] | None = None,
+    measures: list[str] | tuple[str, ...] = (),
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Sweep:
+    """Solves a scene for all combinations of values, as ``dashpot sweep``.
+
+    Args:
+        scene: as `Scene`.
+        vary: by the name of each number its values: an array in SI units, or a text such as ``"5..30 MN/m,26,log"``.
+        measures: keys, such as ``["padding.peak-force"]``; all that the scene reports where none is named.
+        options: those of the command: ``method``, ``points``, ``sample``, ``seed``, ``estimate``, ``threads``, ….
+
+    Returns:
+        Arrays over the grid; equal to the bit on any number of threads.
+    """
+    own = scene if isinstance(scene, Scene) else Scene(scene)
+    measure = ",".join(measures) or None
+    return Sweep(call("sweep", own, vary=vary or {}, measure=measure, progress=progress, **options))
+
+
+def figure(report: Report) -> str:
+    """Forces over time of a run as SVG, as ``run --out`` draws them."""
+    with tempfile.TemporaryDirectory() as folder:
+        options = {"method": report.method, "out": os.path.join(folder, "run"), "write": "figures"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DashpotWarning)
+            _called("run", (report.scene,), {**options, "json": True}, None)
+        drawn = sorted(pathlib.Path(options["out"]).glob("**/force-time*.svg"))
+        return drawn[0].read_text(encoding="utf-8") if drawn else ""
+
+
+def _column(measure: Mapping[str, Any]) -> str:
+    return measure["key"] + (" over thickness" if measure["over_thickness"] else "")

@@ -1,0 +1,81 @@
+"""Sweeps past one machine, on Dask: ``dashpot sweep --shard`` on the workers, ``dashpot merge`` where it is called.
+
+    from dask.distributed import Client
+    from dashpot.distributed import sweep
+
+    with Client("scheduler:8786") as client:        # or Client(n_workers=2) on one machine
+        swept = sweep(client, "pad.toml", {"K": "5..30 MN/m,1000,log"}, folder="/shared/sweep", shards=64)
+
+The folder has to be seen by all workers and by the caller. It is the manifest: shards that are there and whole are
+not solved again, so an interrupted sweep is resumed by the same call, and a lost worker costs its shard at most.
+"""
+
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ._scene import Scene
+from ._verbs import Sweep, call
+
+
+def sweep(
+    client: Any,
+    scene: Any,
+    vary: Mapping[str, Any],
+    measures: list[str] | tuple[str, ...] = (),
+    *,
+    folder: str | os.PathLike[str],
+    shards: int,
+    retries: int = 2,
+    progress: Callable[[int, int], object] | None = None,
+    **options: Any,
+) -> Sweep:
+    """The sweep of `dashpot.sweep`, to the byte, with its shards mapped over the workers of a Dask client.
+
+    Args:
+        client: a ``dask.distributed.Client``.
+        folder: is kept, with one folder for each shard.
+        shards: into so many parts; some times the number of workers.
+        retries: so often a shard is tried again whose worker is lost.
+        progress: is called with the numbers of shards that are done and of all.
+    """
+    from dask.distributed import as_completed
+
+    own = scene if isinstance(scene, Scene) else Scene(scene)
+    home = pathlib.Path(folder).absolute()
+    home.mkdir(parents=True, exist_ok=True)
+    text = home / "scene.toml"
+    if own.files:
+        raise ValueError(f"the scene reads {own.files[0]!r}: write its values into the scene")
+    _write(text, own.text)
+    measure = ",".join(measures) or None
+    asked = {"vary": {name: _told(own, name, values) for name, values in vary.items()}}
+    asked |= {"measure": measure, **options}
+    jobs = [(str(text), str(home / f"shard-{at}"), f"{at}/{shards}", asked) for at in range(1, shards + 1)]
+    futures = client.map(_shard, jobs, pure=False, retries=retries)
+    for done, future in enumerate(as_completed(futures), 1):
+        future.result()
+        if progress is not None:
+            progress(done, shards)
+    return Sweep(call("merge", *(job[1] for job in jobs)))
+
+
+def _shard(job: tuple[str, str, str, dict[str, Any]]) -> None:
+    scene, folder, place, asked = job
+    call("sweep", scene, out=folder, shard=place, threads=1, **asked)
+
+
+def _told(scene: Scene, name: str, values: Any) -> str:
+    from ._verbs import _values
+
+    return _values(name, values, scene)
+
+
+def _write(path: pathlib.Path, text: str) -> None:
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        part = path.with_suffix(".part")
+        part.write_text(text, encoding="utf-8")
+        part.replace(path)

@@ -1,0 +1,153 @@
+//! Scenes, read once and run often.
+
+use std::{
+    path::PathBuf,
+    sync::{Arc, OnceLock},
+};
+
+use dashpot_analysis::{RunError, solve_partial};
+use dashpot_cli::{RunOptions, Said, open, read_scene};
+use dashpot_network::Assembly;
+use dashpot_scene::{Tunables, units::exact_quantity};
+use pyo3::{prelude::*, types::PyList};
+
+use crate::{
+    failure::{Kind, failure, listed, sentence},
+    report::Report,
+    watch::{OfRun, Watcher},
+};
+
+/// The name of the file and the text of a scene: a file, or a built-in scene.
+#[pyfunction]
+pub(crate) fn opened(py: Python<'_>, path: PathBuf) -> PyResult<(String, String)> {
+    open(&path).map_err(|said| failure(py, Kind::Input, &said))
+}
+
+/// A scene that was read and is valid.
+#[pyclass(frozen, module = "dashpot._dashpot")]
+pub(crate) struct Scene {
+    scene: dashpot_scene::Scene,
+    assembly: Arc<Assembly>,
+    /// What is odd about its text.
+    said: Vec<Said>,
+    tunables: OnceLock<Tunables>,
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (text, file=None, values=Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        text: &str,
+        file: Option<&str>,
+        values: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        let read = py.detach(|| read_scene(text, file, &values));
+        let (scene, said) = read.map_err(|said| failure(py, Kind::Input, &said))?;
+        let assembly = Arc::new(scene.assembly.clone());
+        Ok(Self { scene, assembly, said, tunables: OnceLock::new() })
+    }
+
+    /// Its title.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.scene.title.as_deref()
+    }
+
+    /// Its text, with all values as they were set.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.scene.text
+    }
+
+    /// How long it runs \[s\].
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.scene.run.duration
+    }
+
+    /// The methods that it names.
+    #[getter]
+    fn methods(&self) -> Vec<String> {
+        self.scene.run.methods.iter().map(ToString::to_string).collect()
+    }
+
+    /// What is odd about its text, as dictionaries.
+    #[getter]
+    fn said<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        listed(py, &self.said)
+    }
+
+    /// Other files that it reads.
+    #[getter]
+    fn files(&self) -> Vec<String> {
+        self.scene.files.clone()
+    }
+
+    /// The drawing of its network as SVG; empty where there is too much to be drawn.
+    fn drawing(&self) -> String {
+        dashpot_cli::drawing(&self.scene).unwrap_or_default()
+    }
+
+    /// Its numbers: name, value and unit in SI, and as it is written.
+    fn numbers(&self, py: Python<'_>) -> PyResult<Vec<(String, f64, String, String)>> {
+        let all = self.tunables(py)?;
+        let own = all.all().iter().enumerate().filter(|(_, own)| own.word.is_none());
+        let row = |(at, own): (usize, &dashpot_scene::Tunable)| {
+            let unit = own.dimension.map_or_else(String::new, dashpot_units::si_unit);
+            (own.name.clone(), own.value, unit, all.shown(at))
+        };
+        Ok(own.map(row).collect())
+    }
+
+    /// A value of the number of this name as a text that is read back to the same bits.
+    fn written(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<String> {
+        let all = self.tunables(py)?;
+        let at = all.find(name).map_err(|fault| sentence(py, Kind::Input, &fault.to_string()))?;
+        let dimension = all.all()[at].dimension;
+        Ok(dimension.map_or_else(|| format!("{value:?}"), |own| exact_quantity(value, own)))
+    }
+
+    /// Solves it by the method of this name.
+    #[pyo3(signature = (method, *, accuracy=None, neglect=None, rtol=None, estimate=true, budget=None, measures=Vec::new(), progress=None))]
+    #[expect(clippy::too_many_arguments, reason = "each is an argument of Python, by its name")]
+    fn solve(
+        &self,
+        py: Python<'_>,
+        method: &str,
+        accuracy: Option<f64>,
+        neglect: Option<f64>,
+        rtol: Option<f64>,
+        estimate: bool,
+        budget: Option<u64>,
+        measures: Vec<String>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Report> {
+        let without_errors = !estimate;
+        let options = RunOptions { accuracy, neglect, rtol, without_errors, budget, measures };
+        let settings = options.settings(&self.scene, method);
+        let settings = settings.map_err(|error| sentence(py, Kind::Input, &error.to_string()))?;
+        let (watcher, raised) = Watcher::new(progress);
+        let solved = py.detach(|| {
+            let mut observer = OfRun(watcher, settings.duration);
+            solve_partial(&self.scene.network, &self.assembly, &settings, &mut observer)
+        });
+        if let Some(error) = raised.take() {
+            return Err(error);
+        }
+        let failed = |error: RunError| sentence(py, Kind::Run, &error.to_string());
+        solved.map(|report| Report::new(report, options.measures)).map_err(failed)
+    }
+}
+
+impl Scene {
+    fn tunables(&self, py: Python<'_>) -> PyResult<&Tunables> {
+        if let Some(known) = self.tunables.get() {
+            return Ok(known);
+        }
+        let found = Tunables::of(&self.scene.text, self.scene.file.as_deref());
+        let found = found.map_err(|all| sentence(py, Kind::Input, &all.render(false)))?;
+        Ok(self.tunables.get_or_init(|| found))
+    }
+}

@@ -1,0 +1,25 @@
+"""Sweeps on Dask: the bytes of one sweep."""
+
+import numpy as np
+import pytest
+
+import dashpot
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+KEY = "padding.peak-force"
+
+
+def test_a_cluster_gives_the_same_bits(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    from dashpot.distributed import sweep
+
+    grid = {"padding.maxwell.spring": np.geomspace(5e6, 8e7, 40), "head.velocity": np.linspace(2, 9, 10)}
+    whole = dashpot.sweep("reference", grid, [KEY])
+    told = []
+    with distributed.Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+        asked = {"folder": tmp_path / "shards", "shards": 5}
+        found = sweep(client, "reference", grid, [KEY], progress=lambda *own: told.append(own), **asked)
+        again = sweep(client, "reference", grid, [KEY], **asked)
+    assert told[-1] == (5, 5) and len(told) == 5
+    for own in (found, again):
+        assert (own[KEY] == whole[KEY]).all() and (own.error(KEY) == whole.error(KEY)).all()
