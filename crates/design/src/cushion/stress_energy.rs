@@ -172,8 +172,10 @@ mod tests {
         assert!(own.left < 1e-9 && own.collapse == Collapse::Holds, "{own:?}");
         for [energy, stress] in &own.points {
             assert!((own.exponential(*energy) / stress - 1.0).abs() < 1e-9);
-            assert!((own.smooth(*energy) / stress - 1.0).abs() < 3.0 * own.scatter + 1e-9);
         }
+        let left = |[energy, stress]: &[f64; 2]| (own.smooth(*energy) / stress).ln().powi(2);
+        let mean = own.points.iter().map(left).sum::<f64>() / own.points.len() as f64;
+        assert!((mean.sqrt() - own.scatter).abs() < 1e-9, "{} {}", mean.sqrt(), own.scatter);
         let peak = own.predicted(0.45, 0.05, 2e3).unwrap();
         assert!((peak / (law(0.45, 0.05, 2e3) / 9.8) - 1.0).abs() < 1e-9);
         assert!(own.predicted(9.0, 0.01, 2e4).is_none(), "never seen there");
