@@ -4,3 +4,4 @@
 pub mod cushion;
 pub mod floor;
 pub mod optimum;
+mod shared;

@@ -39,6 +39,74 @@ pub fn maximum_unless<B>(
     ControlFlow::Continue(if at_p > at_q { (p, at_p) } else { (q, at_q) })
 }
 
+/// Steps after which a maximum is taken as it is.
+const MOST_STEPS: usize = 60;
+/// The part of an interval in which a golden section steps.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
+
+/// A maximum of `f` between the outer two of three places `(x, f(x))` in rising order, of which the middle one is no
+/// lower than they are: its place to about `apart`, and its value. The steps are those of Brent's method, parabolas
+/// through the best three places, and golden sections where these do not help. Where there are several maxima one of
+/// them is found.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_numerics::extrema::maximum_within;
+///
+/// let three = [1.0, 1.4, 2.0].map(|x: f64| (x, x.sin()));
+/// let (place, value) = maximum_within(three, 1e-6, f64::sin);
+/// assert!((place - std::f64::consts::FRAC_PI_2).abs() < 2e-6 && value <= 1.0);
+/// ```
+///
+/// # References
+///
+/// `brent1973` in `docs/references.bib`.
+pub fn maximum_within(
+    [a, b, c]: [(f64, f64); 3],
+    apart: f64,
+    mut f: impl FnMut(f64) -> f64,
+) -> (f64, f64) {
+    let (mut low, mut high) = (a.0, c.0);
+    let (mut best, [mut second, mut third]) = (b, if a.1 > c.1 { [a, c] } else { [c, a] });
+    let (mut step, mut before) = (high - low, high - low);
+    for _ in 0..MOST_STEPS {
+        let middle = f64::midpoint(low, high);
+        if (best.0 - middle).abs() + 0.5 * (high - low) <= 2.0 * apart {
+            break;
+        }
+        let fall = (best.0 - third.0) * (best.1 - second.1);
+        let rise = (best.0 - second.0) * (best.1 - third.1);
+        let vertex =
+            ((best.0 - second.0) * rise - (best.0 - third.0) * fall) / (2.0 * (fall - rise));
+        let place = best.0 + vertex;
+        let is_taken = vertex.abs() < 0.5 * before.abs() && place > low && place < high;
+        let way = if is_taken {
+            before = step;
+            let is_at_end = place - low < 2.0 * apart || high - place < 2.0 * apart;
+            if is_at_end { apart.copysign(middle - best.0) } else { vertex }
+        } else {
+            before = if best.0 < middle { high - best.0 } else { low - best.0 };
+            GOLDEN * before
+        };
+        step = if way.abs() >= apart { way } else { apart.copysign(way) };
+        let place = best.0 + step;
+        let own = (place, f(place));
+        if own.1 >= best.1 {
+            *(if own.0 >= best.0 { &mut low } else { &mut high }) = best.0;
+            (third, second, best) = (second, best, own);
+        } else {
+            *(if own.0 < best.0 { &mut low } else { &mut high }) = own.0;
+            if own.1 >= second.1 {
+                (third, second) = (second, own);
+            } else if own.1 >= third.1 {
+                third = own;
+            }
+        }
+    }
+    best
+}
+
 /// The vertex of the parabola through three points in rising order, as its place, no farther than the
 /// outer ones, and its value there; `None` where they are in line or no numbers.
 ///
@@ -67,6 +135,27 @@ mod tests {
         assert!(maximum(0.0, 1.0, 60, |x| -x).0 < 1e-12);
         let steep = maximum(0.0, 1.0, 60, |x| if x < 0.3 { x } else { 0.3 - 1e9 * (x - 0.3) });
         assert!((steep.0 - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_maximum_within_three_places_takes_few_looks() {
+        let mut looks = 0;
+        let mut seen = |x: f64| {
+            looks += 1;
+            -(2.0 * x.exp() - 5.0 * x)
+        };
+        let three = [0.2, 0.8, 1.6].map(|x| (x, seen(x)));
+        let (place, value) = maximum_within(three, 1e-5, seen);
+        let right = 2.5_f64.ln();
+        assert!((place - right).abs() < 2e-5, "{place} {right}");
+        assert!((value + 5.0 - 5.0 * right).abs() < 1e-9 && looks <= 14, "{value}, {looks}");
+        // Where nothing is known on one side, and at a kink.
+        let cliff = |x: f64| if x < 0.7 { x } else { f64::NEG_INFINITY };
+        let found = maximum_within([0.0, 0.5, 1.0].map(|x| (x, cliff(x))), 1e-6, cliff);
+        assert!((found.0 - 0.7).abs() < 4e-6, "{found:?}");
+        let kink = |x: f64| -(x - 0.3).abs();
+        let found = maximum_within([0.0, 0.5, 1.0].map(|x| (x, kink(x))), 1e-6, kink);
+        assert!((found.0 - 0.3).abs() < 4e-6, "{found:?}");
     }
 
     #[test]

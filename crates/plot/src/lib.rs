@@ -33,8 +33,8 @@ pub use figures::model::{
 pub use figures::{
     CushionCurve, CushionMark, CushionSeries, ElementSeries, EnergySeries, Figure, FitChannel,
     FitFigure, FitQuantity, FitRow, FitSeries, MeasuredSeries, NodeSeries, Of, PrecisionCurve,
-    PrecisionSeries, RunLimit, RunMarker, RunMarkerKind, RunSeries, VibrationCurve,
-    VibrationSeries,
+    PrecisionSeries, RunLimit, RunMarker, RunMarkerKind, RunSeries, StressEnergySeries,
+    VibrationCurve, VibrationSeries,
 };
 pub use map::{Map, MapLimit, Side};
 pub use report::{Report, ReportFigure, Table};

@@ -288,17 +288,16 @@ struct Seen {
     coefficients: [[f64; DEGREE + 1]; 3],
     /// The force at the places that they pass through.
     force: [f64; DEGREE + 1],
-    /// Whether a law is followed beyond where it holds.
+    /// Whether a law is followed beyond where it holds before the release.
     is_beyond: bool,
 }
 
 impl Seen {
     fn of<const N: usize>(nodes: &Nodes<N>, curves: &[CurveRow<N>], looks: &Looks<N>) -> Self {
-        let (mut values, mut is_beyond) = ([[0.0; DEGREE + 1]; 3], false);
+        let mut values = [[0.0; DEGREE + 1]; 3];
         for (at, z) in nodes.values.iter().enumerate() {
             let own = apply(looks, z);
             (0..3).for_each(|look| values[look][at] = own[look]);
-            is_beyond |= curves.iter().any(|curve| is_outside(curve, z));
         }
         let interpolation = Interpolation::of_degree(DEGREE);
         let coefficients = values.map(|values| {
@@ -306,13 +305,22 @@ impl Seen {
             interpolation.coefficients(&values, &mut own);
             own
         });
-        Self { coefficients, force: values[0], is_beyond }
+        let own = Self { coefficients, force: values[0], is_beyond: false };
+        // What strikes is gone behind the release, however far the step reaches.
+        let until = own.opening().unwrap_or(nodes.values.len());
+        let is_outside = |z: &[f64; N]| curves.iter().any(|curve| is_outside(curve, z));
+        let is_beyond = nodes.values[..until].iter().any(is_outside);
+        Self { is_beyond, ..own }
     }
 
-    /// When the force falls through zero in a step of this length, as far as its places tell; at the very start
-    /// of the first one it may be zero.
+    /// The first of the places at which the force no longer pushes; at the very start it may be zero.
+    fn opening(&self) -> Option<usize> {
+        Some(1 + self.force[1..].iter().position(|force| *force <= 0.0)?)
+    }
+
+    /// When the force falls through zero in a step of this length, as far as its places tell.
     fn release(&self, length: f64) -> Option<f64> {
-        let at = 1 + self.force[1..].iter().position(|force| *force <= 0.0)?;
+        let at = self.opening()?;
         let nodes = Interpolation::of_degree(DEGREE);
         let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
         let (before, after) = (self.force[at - 1], self.force[at]);

@@ -1,5 +1,7 @@
 //! Points of a sweep whose errors are known from points near them.
 
+use std::collections::BTreeMap;
+
 use super::{
     Row,
     full::{Flaws, Full},
@@ -13,9 +15,9 @@ pub enum Estimates {
     All,
     /// At three points of each group of 64, which begin at fixed numbers of the grid. The others are solved
     /// once, by the method of those three and at a quarter of their tolerance; they have the largest of
-    /// their relative errors. At every point of a group whose three differ in kind, by more than 30 times in
-    /// an error, or of which the middle one is not within both errors if it is solved once; and at points
-    /// that are of another kind than those.
+    /// their relative errors. A group whose three differ in kind, by more than 30 times in an error, or of
+    /// which the middle one is not within both errors if it is solved once, is halved, and so are its parts:
+    /// at every point of one of less than six, and at points that are of another kind than the three.
     #[default]
     Some,
     /// At none.
@@ -38,14 +40,17 @@ impl Default for SweepOptions {
     }
 }
 
-/// Fewer points of a group are not worth it.
+/// Fewer points of a part are not worth it.
 const FEWEST: usize = 6;
 /// The tolerance of points whose errors are not estimated, in parts of that of those whose are.
 const TIGHTER: f64 = 0.25;
 /// Relative errors within a group may differ by this factor.
 const ALIKE: f64 = 30.0;
 
-/// What is known of a group of points.
+/// Points of a group whose errors are estimated, by their places.
+type Solved = BTreeMap<usize, Option<RunReport>>;
+
+/// What is known of a group of points, or a part of one.
 struct Known {
     method: &'static str,
     rtol: f64,
@@ -57,53 +62,67 @@ struct Known {
 impl Full<'_> {
     /// Solves the points of a group; how many of them have their errors estimated.
     pub(super) fn group(&self, mut rows: Vec<&mut Row<'_>>, estimates: Estimates) -> usize {
-        let count = rows.len();
-        let mut anchors = vec![];
-        if estimates == Estimates::Some && count >= FEWEST {
-            anchors = vec![0, count / 2, count - 1];
+        let mut solved = Solved::new();
+        let mut parts: Vec<(usize, usize)> =
+            rows.len().checked_sub(1).map(|last| (0, last)).into_iter().collect();
+        while let Some((first, last)) = parts.pop() {
+            let middle = (first + last).div_ceil(2);
+            let is_spared = estimates == Estimates::Some && last - first + 1 >= FEWEST;
+            let known =
+                is_spared.then(|| self.agreed([first, middle, last], &mut solved, &mut rows));
+            if let Some(None) = known {
+                parts.extend([(middle, last), (first, middle)]);
+                continue;
+            }
+            for (at, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
+                if solved.contains_key(&at) {
+                    continue;
+                }
+                let known = known.as_ref().and_then(Option::as_ref);
+                let spared =
+                    known.and_then(|known| self.spared(known, row.point, row.values, row.errors));
+                match spared {
+                    Some((warnings, cut)) => (row.warnings, row.flaws.cut) = (warnings, cut),
+                    None => {
+                        solved.insert(at, self.estimated(row));
+                    }
+                }
+            }
         }
-        let reports: Vec<Option<RunReport>> =
-            anchors.iter().map(|&at| self.estimated(rows[at])).collect();
-        let known = self.known(&anchors, &reports, &rows);
+        let is_estimated = |run: &&RunReport| run.solver.solves_for_error > 0;
+        solved.values().flatten().filter(is_estimated).count()
+    }
+
+    /// What three points of a part agree in, if they do; those that are not solved yet are.
+    fn agreed(
+        &self,
+        anchors: [usize; 3],
+        solved: &mut Solved,
+        rows: &mut [&mut Row<'_>],
+    ) -> Option<Known> {
+        for at in anchors {
+            solved.entry(at).or_insert_with(|| self.estimated(rows[at]));
+        }
+        let reports = anchors.map(|at| solved.get(&at).and_then(Option::as_ref));
         // The one in the middle is the test.
-        let known = known.filter(|known| {
-            let Some(&middle) = anchors.get(1) else { return false };
-            let row = &rows[middle];
+        self.known(&anchors, &reports, rows).filter(|known| {
+            let row = &rows[anchors[1]];
             let (mut values, mut errors) = (row.values.to_vec(), row.errors.to_vec());
             let is_taken = self.spared(known, row.point, &mut values, &mut errors).is_some();
             let within =
                 |at: usize| (values[at] - row.values[at]).abs() <= row.errors[at].max(errors[at]);
             is_taken && (0..values.len()).all(within)
-        });
-        let is_estimated = |run: &Option<RunReport>| {
-            run.as_ref().is_some_and(|own| own.solver.solves_for_error > 0)
-        };
-        let mut estimated = reports.iter().filter(|own| is_estimated(own)).count();
-        for (at, row) in rows.iter_mut().enumerate() {
-            if anchors.contains(&at) {
-                continue;
-            }
-            let spared = known
-                .as_ref()
-                .and_then(|known| self.spared(known, row.point, row.values, row.errors));
-            match spared {
-                Some((warnings, cut)) => (row.warnings, row.flaws.cut) = (warnings, cut),
-                None => {
-                    estimated += usize::from(is_estimated(&self.estimated(row)));
-                }
-            }
-        }
-        estimated
+        })
     }
 
     /// What these points agree in, if they do.
     fn known(
         &self,
         anchors: &[usize],
-        reports: &[Option<RunReport>],
+        reports: &[Option<&RunReport>],
         rows: &[&mut Row<'_>],
     ) -> Option<Known> {
-        let reports: Vec<&RunReport> = reports.iter().map(Option::as_ref).collect::<Option<_>>()?;
+        let reports: Vec<&RunReport> = reports.iter().copied().collect::<Option<_>>()?;
         let first = *reports.first()?;
         let warnings = first.warnings.clone();
         let is_alike = |own: &&RunReport| {

@@ -1,16 +1,19 @@
 //! The best static stress of a curve, and the stresses that keep a limit.
 
-use dashpot_numerics::extrema::maximum;
+use dashpot_numerics::extrema::maximum_within;
 
 use super::{
     NoCushion,
     curves::{Curve, CushionPoint, Tests},
+    edge::{Seen, edge, surely},
 };
 
-/// Steps of a golden section between two stresses of a curve: they narrow it to 10⁻⁴.
-const STEPS: usize = 18;
-/// Halvings between two stresses of which one keeps a limit.
-const HALVINGS: usize = 24;
+/// The logarithm of a best stress is found to this …
+const NEAR: f64 = 2e-4;
+/// … and that of one beyond which something ends to this.
+const NEAREST: f64 = 4e-6;
+/// Whether a peak falls up to an end is seen in this part of the way there.
+const INNER: f64 = 1e-3;
 /// Stresses between which a range is looked for, in parts of the scene's own, and how many.
 const AROUND: [f64; 2] = [1e-2, 1e2];
 const SOUNDINGS: u16 = 25;
@@ -85,11 +88,15 @@ pub struct Passing {
     pub ends: [Reach; 2],
 }
 
-/// Finds the best stress of a curve, and the range about it that keeps a limit.
-pub(super) fn find(tests: &Tests<'_>, curve: &mut Curve, limit: Option<f64>) {
-    curve.best = best(tests, curve);
-    let keeping = curve.best.filter(|own| limit.is_some_and(|limit| own.point.keeps(limit)));
-    curve.passing = keeping.zip(limit).map(|(best, limit)| passing(tests, curve, best, limit));
+/// The best stress of a curve, and the range about it that keeps a limit.
+pub(super) fn find(
+    tests: &Tests<'_>,
+    curve: &Curve,
+    limit: Option<f64>,
+) -> (Option<Best>, Option<Passing>) {
+    let best = best(tests, curve);
+    let keeping = best.filter(|own| limit.is_some_and(|limit| own.point.keeps(limit)));
+    (best, keeping.zip(limit).map(|(best, limit)| passing(tests, curve, best, limit)))
 }
 
 fn best(tests: &Tests<'_>, curve: &Curve) -> Option<Best> {
@@ -97,54 +104,56 @@ fn best(tests: &Tests<'_>, curve: &Curve) -> Option<Best> {
     let usable = points.iter().enumerate().filter(|own| own.1.is_usable());
     let (at, least) = usable.min_by(|one, other| one.1.peak.total_cmp(&other.1.peak))?;
     let drop = |log: f64| tests.drop(curve.height, curve.thickness, log.exp());
-    let rough = |log: f64| tests.rough(curve.height, curve.thickness, log.exp());
+    let rough = |log: f64| low(&tests.rough(curve.height, curve.thickness, log.exp()));
+    let better =
+        |own: CushionPoint| if own.is_usable() && own.peak < least.peak { own } else { *least };
     let last = points.len() - 1;
-    let is_known_above = at < last && points[at + 1].is_usable();
-    if at > 0 && is_known_above && points[at - 1].is_usable() {
-        let ends = [at - 1, at + 1].map(|at| points[at].stress.ln());
-        let found = maximum(ends[0], ends[1], STEPS, |log| {
-            let own = rough(log);
-            if own.is_usable() { -own.peak } else { f64::NEG_INFINITY }
-        });
-        let point = drop(found.0);
-        let point = if point.is_usable() && point.peak < least.peak { point } else { *least };
-        return Some(Best { point, place: Place::Within });
-    }
     let place = match at {
         0 => Place::Low,
         _ if at == last => Place::High,
-        _ if !is_known_above => Place::EndOfKnown,
+        _ if !points[at + 1].is_usable() => Place::EndOfKnown,
         _ => Place::Within,
     };
-    if place != Place::EndOfKnown {
-        return Some(Best { point: *least, place });
+    match place {
+        Place::Low | Place::High => return Some(Best { point: *least, place }),
+        Place::Within => {
+            let three = [at - 1, at, at + 1].map(|at| (points[at].stress.ln(), low(&points[at])));
+            let found = maximum_within(three, NEAR, rough);
+            return Some(Best { point: better(drop(found.0)), place });
+        }
+        Place::EndOfKnown => {}
     }
     // It falls up to there, or has turned before.
-    let from = points[at - 1].stress.ln();
-    let end = halved(least.stress.ln(), points[at + 1].stress.ln(), |log| rough(log).is_usable());
-    let (log, _) = maximum(from, end, STEPS, |log| -rough(log).peak);
-    let (inner, edge) = (drop(log), drop(end));
-    let is_edge = edge.is_usable() && edge.peak <= inner.peak;
-    let place = if is_edge { Place::EndOfKnown } else { Place::Within };
-    let point = if is_edge || !inner.is_usable() { edge } else { inner };
-    Some(Best { point: if point.is_usable() { point } else { *least }, place })
+    let from = (least.stress.ln(), low(least));
+    let beyond = (points[at + 1].stress.ln(), f64::INFINITY);
+    let excess = |log: f64| if rough(log).is_finite() { -1.0 } else { f64::INFINITY };
+    let [(end, _), _] = edge((from.0, -1.0), beyond, NEAREST, excess);
+    let (edge, inner) = (drop(end), end - INNER * (end - from.0));
+    let (at_end, at_inner) = (low(&edge), rough(inner));
+    let before = (points[at - 1].stress.ln(), low(&points[at - 1]));
+    let three = if from.1 > at_end.max(at_inner) {
+        [before, from, (end, at_end)]
+    } else if at_inner > at_end {
+        [from, (inner, at_inner), (end, at_end)]
+    } else {
+        return Some(Best { point: better(edge), place });
+    };
+    let found = maximum_within(three, NEAR, rough);
+    Some(Best { point: better(drop(found.0)), place: Place::Within })
 }
 
-/// The last place towards `without` at which something still holds that holds at `with`.
-fn halved(mut with: f64, mut without: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (with + without);
-        *(if holds(middle) { &mut with } else { &mut without }) = middle;
-    }
-    with
+/// What is largest where a peak is lowest.
+fn low(own: &CushionPoint) -> f64 {
+    if own.is_usable() { -own.peak } else { f64::NEG_INFINITY }
 }
 
 fn passing(tests: &Tests<'_>, curve: &Curve, best: Best, limit: f64) -> Passing {
+    let from = (best.point.stress.ln(), best.point.excess(limit));
     let best = best.point.stress;
     let below = curve.points.iter().rev().filter(|own| own.stress < best);
     let above = curve.points.iter().filter(|own| own.stress > best);
-    let low = end(tests, curve, limit, best, below);
-    let high = end(tests, curve, limit, best, above);
+    let low = end(tests, curve, limit, from, below);
+    let high = end(tests, curve, limit, from, above);
     Passing { stress: [low.0, high.0], ends: [low.1, high.1] }
 }
 
@@ -153,22 +162,25 @@ fn end<'c>(
     tests: &Tests<'_>,
     curve: &Curve,
     limit: f64,
-    best: f64,
+    best: Seen,
     points: impl Iterator<Item = &'c CushionPoint>,
 ) -> (f64, Reach) {
     let mut last = best;
     for point in points {
-        if point.keeps(limit) {
-            last = point.stress;
+        let excess = point.excess(limit);
+        let here = (point.stress.ln(), excess);
+        if excess <= 0.0 {
+            last = here;
             continue;
         }
         let drop = |log: f64| tests.rough(curve.height, curve.thickness, log.exp());
-        let log = halved(last.ln(), point.stress.ln(), |log| drop(log).keeps(limit));
-        let beyond = drop(log + 1e-6 * (point.stress.ln() - last.ln()).signum());
-        let reach = if beyond.is_usable() { Reach::Limit } else { Reach::Known };
-        return (log.exp(), reach);
+        let [kept, beyond] = edge(last, here, NEAREST, |log| drop(log).excess(limit));
+        let held = |log: f64| tests.drop(curve.height, curve.thickness, log.exp()).keeps(limit);
+        let sure = surely(kept.0, last.0, NEAREST, held);
+        let reach = if beyond.1.is_finite() { Reach::Limit } else { Reach::Known };
+        return (sure.exp(), reach);
     }
-    (last, Reach::Range)
+    (last.0.exp(), Reach::Range)
 }
 
 /// Static stresses at equal ratios from well below the best ones of all curves to above them.

@@ -88,8 +88,14 @@ impl CushionPoint {
 
     /// Whether it certainly keeps a limit \[m/s²\].
     pub fn keeps(&self, limit: f64) -> bool {
+        self.excess(limit) <= 0.0
+    }
+
+    /// By how much it may exceed a limit \[m/s²\]: zero or less where it certainly keeps it, infinite where its peak
+    /// cannot be used.
+    pub(super) fn excess(&self, limit: f64) -> f64 {
         let error = if self.error.is_finite() { self.error } else { 0.0 };
-        self.is_usable() && self.peak + error <= limit
+        if self.is_usable() { self.peak + error - limit } else { f64::INFINITY }
     }
 }
 

@@ -22,6 +22,7 @@
 mod best;
 mod creep;
 mod curves;
+mod edge;
 mod platen;
 mod repeated;
 mod stress_energy;
@@ -44,6 +45,7 @@ pub use self::{
     thinnest::{Thinnest, Unmet},
 };
 use self::{curves::Tests, thinnest::Question};
+use crate::shared::shared;
 
 /// What curves are asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,6 +84,18 @@ pub struct Cushion {
     pub stress_energy: Option<StressEnergy>,
     /// How it was solved.
     pub work: Work,
+}
+
+impl Cushion {
+    /// Whether a cushion keeps the limit from each height: over the whole range where there is one, else at any stress.
+    pub fn is_kept(&self) -> bool {
+        if !self.thinnest.is_empty() {
+            return self.thinnest.iter().all(|own| own.over_all.is_ok());
+        }
+        let of_height =
+            self.curves.chunk_by(|one, next| one.height.to_bits() == next.height.to_bits());
+        of_height.into_iter().all(|own| own.iter().any(|own| own.passing.is_some()))
+    }
 }
 
 /// How curves were solved.
@@ -247,8 +261,9 @@ pub fn cushion(
         given => given.to_vec(),
     };
     let (mut curves, mut work) = tests.curves(&stresses, watch)?;
-    for curve in &mut curves {
-        best::find(&tests, curve, asked.limit);
+    let found = shared(asked.threads, &curves, &|own| best::find(&tests, own, asked.limit));
+    for (curve, (best, passing)) in curves.iter_mut().zip(found) {
+        (curve.best, curve.passing) = (best, passing);
     }
     if let Some(row) = asked.row {
         tests.in_a_row(row, &mut curves, watch)?;
@@ -257,7 +272,7 @@ pub fn cushion(
     let thinnest = match (asked.limit, asked.over) {
         (Some(limit), Some(over)) => {
             let question = Question { tests: &tests, limit, over };
-            asked.heights.iter().map(|height| question.answer(*height, &curves)).collect()
+            shared(asked.threads, &asked.heights, &|height| question.answer(*height))
         }
         _ => Vec::new(),
     };

@@ -8,7 +8,7 @@
 //!
 //! # References
 //!
-//! `burgess1990` and `daum2006` in `docs/references.bib`.
+//! `clemson135` in `docs/references.bib`.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -60,6 +60,10 @@ pub struct StressEnergy {
     pub range: [f64; 2],
     /// How many points of how many curves it is of.
     pub of: [usize; 2],
+    /// Dynamic energy \[J/m³\] and dynamic stress \[Pa\] of each point.
+    pub points: Vec<[f64; 2]>,
+    /// The smooth curve: the logarithm of the stress as a polynomial of that of the energy, which goes from 0 to 1.
+    smooth: Vec<f64>,
 }
 
 impl StressEnergy {
@@ -87,14 +91,27 @@ impl StressEnergy {
         let (line, left) = polynomial(&energies, &stresses, 1, range[1])?;
         let logs: Vec<f64> = energies.iter().map(|own| (own / range[0]).ln()).collect();
         let scale = (range[1] / range[0]).ln();
-        let (_, scatter) = polynomial(&logs, &stresses, DEGREE, scale)?;
+        let (smooth, scatter) = polynomial(&logs, &stresses, DEGREE, scale)?;
         let collapse = match (scatter <= COLLAPSED, left <= EXPONENTIAL) {
             (false, _) => Collapse::Fails,
             (true, false) => Collapse::OtherForm,
             (true, true) => Collapse::Holds,
         };
         let fit = [line[0].exp(), line[1] / range[1]];
-        Some(Self { fit, left, scatter, collapse, range, of: [energies.len(), count] })
+        let of = [energies.len(), count];
+        let points = energies.iter().zip(&stresses).map(|(x, y)| [*x, y.exp()]).collect();
+        Some(Self { fit, left, scatter, collapse, range, of, points, smooth })
+    }
+
+    /// The stress \[Pa\] of the smooth curve at an energy \[J/m³\] within the range.
+    pub fn smooth(&self, energy: f64) -> f64 {
+        let place = (energy / self.range[0]).ln() / (self.range[1] / self.range[0]).ln();
+        self.smooth.iter().rev().fold(0.0, |sum, own| sum * place + own).exp()
+    }
+
+    /// The stress \[Pa\] of the exponential at an energy \[J/m³\].
+    pub fn exponential(&self, energy: f64) -> f64 {
+        self.fit[0] * (self.fit[1] * energy).exp()
     }
 
     /// The peak in multiples of g that the method predicts for a drop; `None` where it does not hold, or was not seen
@@ -102,7 +119,7 @@ impl StressEnergy {
     pub fn predicted(&self, height: f64, thickness: f64, stress: f64) -> Option<f64> {
         let energy = stress * height / thickness;
         let is_within = energy >= self.range[0] && energy <= self.range[1];
-        let peak = || self.fit[0] * (self.fit[1] * energy).exp() / stress;
+        let peak = || self.exponential(energy) / stress;
         (self.collapse == Collapse::Holds && is_within).then(peak)
     }
 }
@@ -153,6 +170,12 @@ mod tests {
         let own = StressEnergy::of(&curves(law), 9.8).unwrap();
         assert!((own.fit[0] / 5e4 - 1.0).abs() < 1e-9 && (own.fit[1] / 2e-5 - 1.0).abs() < 1e-9);
         assert!(own.left < 1e-9 && own.collapse == Collapse::Holds, "{own:?}");
+        for [energy, stress] in &own.points {
+            assert!((own.exponential(*energy) / stress - 1.0).abs() < 1e-9);
+        }
+        let left = |[energy, stress]: &[f64; 2]| (own.smooth(*energy) / stress).ln().powi(2);
+        let mean = own.points.iter().map(left).sum::<f64>() / own.points.len() as f64;
+        assert!((mean.sqrt() - own.scatter).abs() < 1e-9, "{} {}", mean.sqrt(), own.scatter);
         let peak = own.predicted(0.45, 0.05, 2e3).unwrap();
         assert!((peak / (law(0.45, 0.05, 2e3) / 9.8) - 1.0).abs() < 1e-9);
         assert!(own.predicted(9.0, 0.01, 2e4).is_none(), "never seen there");

@@ -1,9 +1,14 @@
 //! The thinnest cushion that keeps a limit over a range of static stresses, and the lightest.
 
-use super::curves::{Curve, Tests};
+use super::{
+    curves::{CushionPoint, Tests},
+    edge::{edge, surely},
+};
 
-/// Halvings between two thicknesses of which one keeps the limit.
-const HALVINGS: usize = 24;
+/// A thickness is found to this part of the thickest one …
+const NEAREST: f64 = 1e-6;
+/// … and to this one where many are compared.
+const ROUGHLY: f64 = 2e-4;
 /// Stresses of the range at which it has to be kept, at equal ratios.
 const STRESSES: u16 = 13;
 
@@ -21,9 +26,9 @@ pub enum Unmet {
 pub struct Thinnest {
     /// Height of the drop \[m\].
     pub height: f64,
-    /// The least thickness \[m\] that keeps the limit over the whole range, the largest peak there \[m/s²\], and its
-    /// stress \[Pa\]; or why none of those that were looked at does.
-    pub over_all: Result<[f64; 3], Unmet>,
+    /// The least thickness \[m\] that keeps the limit over the whole range, and the drop of the largest peak there, the
+    /// error of which is within the limit as well; or why none of those that were looked at does.
+    pub over_all: Result<(f64, CushionPoint), Unmet>,
     /// Whether the thinnest thickness that was asked for already keeps it: a thinner one may as well.
     pub is_first: bool,
     /// The least volume for a weight, `t/σ` \[m³/N\], with its thickness \[m\] and stress \[Pa\] within the range, where
@@ -38,48 +43,31 @@ pub(super) struct Question<'q> {
     pub(super) over: [f64; 2],
 }
 
+/// A thickness that keeps the limit, and whether it is the first one that was looked at.
+#[derive(Debug, Clone, Copy)]
+struct Kept {
+    thickness: f64,
+    is_first: bool,
+}
+
 impl Question<'_> {
     /// The answer for one height. Thicker cushions than one that will do are taken to do as well if those that were
     /// looked at do.
-    pub(super) fn answer(&self, height: f64, curves: &[Curve]) -> Thinnest {
-        let thicknesses = &self.tests.asked.thicknesses;
-        debug_assert!(curves.len().is_multiple_of(thicknesses.len()));
-        let over_all = self.least(thicknesses, |thickness| self.over_range(height, thickness));
-        let lightest = self.stresses().filter_map(|stress| {
-            let one = |thickness: f64| self.at(height, thickness, stress);
-            let [thickness, ..] = self.least(thicknesses, one).ok()?.0;
-            Some([thickness / stress, thickness, stress])
-        });
-        let lightest = lightest.min_by(|one, other| one[0].total_cmp(&other[0]));
-        let is_first = over_all.as_ref().is_ok_and(|own| own.1);
-        Thinnest { height, over_all: over_all.map(|own| own.0), is_first, lightest }
-    }
-
-    /// The least thickness for which something is kept, and whether that is the first one.
-    fn least(
-        &self,
-        thicknesses: &[f64],
-        kept: impl Fn(f64) -> Result<[f64; 2], Unmet>,
-    ) -> Result<([f64; 3], bool), Unmet> {
-        let mut last = None;
-        for (at, &thickness) in thicknesses.iter().enumerate().rev() {
-            match (kept(thickness), last) {
-                (Ok(own), _) => last = Some((at, thickness, own)),
-                (Err(why), None) => return Err(why),
-                (Err(_), Some((_, with, mut own))) => {
-                    let (mut with, mut without) = (with, thickness);
-                    for _ in 0..HALVINGS {
-                        let middle = 0.5 * (with + without);
-                        match kept(middle) {
-                            Ok(found) => (with, own) = (middle, found),
-                            Err(_) => without = middle,
-                        }
-                    }
-                    return Ok(([with, own[0], own[1]], false));
-                }
-            }
-        }
-        last.map(|own| ([own.1, own.2[0], own.2[1]], true)).ok_or(Unmet::Known(self.over[0]))
+    pub(super) fn answer(&self, height: f64) -> Thinnest {
+        let of = Drops { question: self, height };
+        let found = of.over_range();
+        let (first, last) = of.ends();
+        let thickest = found.as_ref().map_or(last, |own| own.0.thickness);
+        let volume = |stress: f64, nearest: f64| {
+            let own = of.least(&[first, thickest], &[stress], nearest).ok()?;
+            Some([own.thickness / stress, own.thickness, stress])
+        };
+        let rough = self.stresses().filter_map(|stress| volume(stress, ROUGHLY));
+        let least = rough.min_by(|one, other| one[0].total_cmp(&other[0]));
+        let lightest = least.and_then(|own| volume(own[2], NEAREST));
+        let is_first = found.as_ref().is_ok_and(|own| own.0.is_first);
+        let over_all = found.map(|own| (own.0.thickness, own.1));
+        Thinnest { height, over_all, is_first, lightest }
     }
 
     fn stresses(&self) -> impl Iterator<Item = f64> {
@@ -87,27 +75,87 @@ impl Question<'_> {
         let last = f64::from(STRESSES - 1);
         (0..STRESSES).map(move |at| low * (high / low).powf(f64::from(at) / last))
     }
+}
 
-    /// The largest peak over the range and its stress, if the limit is kept.
-    fn over_range(&self, height: f64, thickness: f64) -> Result<[f64; 2], Unmet> {
-        let mut worst = [f64::NEG_INFINITY, f64::NAN];
-        for stress in self.stresses() {
-            let own = self.at(height, thickness, stress)?;
-            if own[0] > worst[0] {
-                worst = own;
-            }
-        }
-        Ok(worst)
+/// The drops from one height.
+struct Drops<'q> {
+    question: &'q Question<'q>,
+    height: f64,
+}
+
+impl Drops<'_> {
+    fn ends(&self) -> (f64, f64) {
+        let all = &self.question.tests.asked.thicknesses;
+        (all[0], all[all.len() - 1])
     }
 
-    fn at(&self, height: f64, thickness: f64, stress: f64) -> Result<[f64; 2], Unmet> {
-        let own = self.tests.rough(height, thickness, stress);
-        if own.keeps(self.limit) {
-            Ok([own.peak, stress])
-        } else if own.is_usable() {
-            Err(Unmet::Peak(own.peak, stress))
-        } else {
-            Err(Unmet::Known(stress))
+    fn rough(&self, thickness: f64, stress: f64) -> CushionPoint {
+        self.question.tests.rough(self.height, thickness, stress)
+    }
+
+    fn excess(&self, own: &CushionPoint) -> f64 {
+        own.excess(self.question.limit)
+    }
+
+    /// The drop that exceeds the limit the most, or the least far below.
+    fn worst(&self, drops: impl Iterator<Item = CushionPoint>) -> Option<CushionPoint> {
+        drops.max_by(|one, other| self.excess(one).total_cmp(&self.excess(other)))
+    }
+
+    /// The least thickness for the whole range, and the worst drop there: that of its ends, and of all stresses within
+    /// that turn out to be worse.
+    fn over_range(&self) -> Result<(Kept, CushionPoint), Unmet> {
+        let mut stresses = self.question.over.to_vec();
+        stresses.dedup();
+        loop {
+            let kept = self.least(&self.question.tests.asked.thicknesses, &stresses, NEAREST)?;
+            let all = || self.question.stresses().map(|own| self.rough(kept.thickness, own));
+            let worst = self.worst(all()).filter(|own| self.excess(own) > 0.0);
+            match worst {
+                Some(own) if !stresses.contains(&own.stress) => stresses.push(own.stress),
+                _ => {
+                    let drop =
+                        |own: &f64| self.question.tests.drop(self.height, kept.thickness, *own);
+                    let worst = self.worst(stresses.iter().map(drop));
+                    return worst.map(|own| (kept, own)).ok_or(Unmet::Known(stresses[0]));
+                }
+            }
         }
+    }
+
+    /// The least thickness that keeps the limit at these stresses, where errors are counted.
+    fn least(&self, thicknesses: &[f64], stresses: &[f64], nearest: f64) -> Result<Kept, Unmet> {
+        let at =
+            |thickness: f64| self.worst(stresses.iter().map(|own| self.rough(thickness, *own)));
+        let excess = |thickness: f64| at(thickness).map_or(f64::INFINITY, |own| self.excess(&own));
+        let mut last: Option<(f64, f64)> = None;
+        for &thickness in thicknesses.iter().rev() {
+            let own = (thickness, excess(thickness));
+            let Some(with) = last.filter(|_| own.1 > 0.0) else {
+                if own.1 > 0.0 {
+                    return Err(unmet(at(thickness), stresses[0]));
+                }
+                last = Some(own);
+                continue;
+            };
+            let nearest = nearest * thicknesses[thicknesses.len() - 1];
+            let [kept, _] = edge(with, own, nearest, excess);
+            let held = |thickness: f64| {
+                let drop = |own: &f64| self.question.tests.drop(self.height, thickness, *own);
+                stresses.iter().map(drop).all(|own| self.excess(&own) <= 0.0)
+            };
+            let thickness = surely(kept.0, with.0, nearest, held);
+            return Ok(Kept { thickness, is_first: false });
+        }
+        let first = last.map(|own| Kept { thickness: own.0, is_first: true });
+        first.ok_or_else(|| unmet(None, stresses[0]))
+    }
+}
+
+/// Why a worst drop will not do.
+fn unmet(worst: Option<CushionPoint>, stress: f64) -> Unmet {
+    match worst {
+        Some(own) if own.is_usable() => Unmet::Peak(own.peak, own.stress),
+        own => Unmet::Known(own.map_or(stress, |own| own.stress)),
     }
 }

@@ -1,9 +1,6 @@
 //! The way to the best design: spread designs, and searches from the best of them.
 
-use std::{
-    sync::atomic::{AtomicUsize, Ordering},
-    thread,
-};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{
     Aim, DesignError, Effort, Looked, Problem, Required, Requirement, Searched,
@@ -12,6 +9,7 @@ use super::{
     programme::{Found, least},
     spread::{Space, spread},
 };
+use crate::shared::shared;
 
 /// What a design may exceed a bound by, in parts of it, and still count as keeping it in a search.
 pub(super) const ROOM: f64 = 1e-7;
@@ -194,12 +192,7 @@ impl<'p> Search<'p> {
         all: &[T],
         one: &(dyn Fn(&T) -> U + Sync),
     ) -> Vec<U> {
-        let each = all.len().div_ceil(self.effort.threads.max(1)).max(1);
-        thread::scope(|scope| {
-            let work = |part| scope.spawn(move || <[T]>::iter(part).map(one).collect::<Vec<_>>());
-            let parts: Vec<_> = all.chunks(each).map(work).collect();
-            parts.into_iter().flat_map(|own| own.join().unwrap_or_default()).collect()
-        })
+        shared(self.effort.threads, all, one)
     }
 
     /// The best designs that are not beside each other.

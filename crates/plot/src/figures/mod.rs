@@ -5,6 +5,7 @@ mod cushion;
 mod fits;
 pub mod model;
 mod runs;
+mod stress_energy;
 mod unit;
 mod vibration;
 mod work_precision;
@@ -21,5 +22,6 @@ pub use runs::{
     FORCE_DEFORMATION, FORCE_TIME, Figure, MeasuredSeries, NodeSeries, Of, RunLimit, RunMarker,
     RunMarkerKind, RunRank, RunSeries, VELOCITY_TIME,
 };
+pub use stress_energy::StressEnergySeries;
 pub use vibration::{VibrationCurve, VibrationSeries};
 pub use work_precision::{PrecisionCurve, PrecisionSeries};

@@ -1,15 +1,16 @@
 //! What cushion curves are asked for: heights, thicknesses, stresses and a limit, from the command and the scene.
 
-use dashpot_analysis::{Bound, measures::PeakAcceleration, sweep::ScenePoint};
+use dashpot_analysis::{Bound, measures::PeakAcceleration};
 use dashpot_design::cushion::{Asked, NoCushion, Platen, PoseOfThickness, Row};
 use dashpot_network::parameters::{Dimension, Kind as _};
-use dashpot_scene::{Diagnostic, Scene, Tunables, Variation, pose, units::si_unit};
+use dashpot_scene::{Scene, Tunables, Variation, units::si_unit};
 
 use super::CushionArguments;
 use crate::{
     error::CliError,
     input::{Input, setting},
     output::list,
+    varied::{point, posed},
 };
 
 /// More curves are not drawn.
@@ -89,16 +90,7 @@ impl Wanted {
         Box::new(move |thickness: f64| {
             let value = format!("{thickness:e} {}", si_unit(Dimension::LENGTH));
             let values = list(self.thickness.map(|at| (at, value)));
-            let posed = pose(&self.tunables.text_with(&values), &input.options(set));
-            let posed = posed
-                .map_err(|faults| list(faults.list.iter().map(Diagnostic::message)).join("; "))?;
-            let method = match (method, &posed.run.methods[..]) {
-                (Some(wanted), _) => wanted,
-                (None, [only]) => only,
-                _ => "auto",
-            };
-            let settings = posed.settings(method).map_err(|error| error.to_string())?;
-            Ok(ScenePoint { network: posed.network, settings })
+            point(posed(&self.tunables.text_with(&values), input, set)?, method)
         })
     }
 }

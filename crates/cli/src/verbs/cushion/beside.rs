@@ -18,6 +18,17 @@ use crate::{
 const FEW: usize = 3;
 const DIGITS: usize = 4;
 
+/// By how much drops scatter about what they are taken for.
+pub(super) fn scatter(own: &StressEnergy) -> String {
+    format!(
+        "{} drops of {} curves; root mean square about the smooth curve {}, about the exponential {}",
+        own.of[0],
+        own.of[1],
+        percent(own.scatter, 2),
+        percent(own.left, 2)
+    )
+}
+
 /// Whether one curve of dynamic stress over dynamic energy stands for all of them.
 pub(super) fn stress_energy(own: &StressEnergy) -> Line {
     let scatter = percent(own.scatter, 2);
@@ -61,6 +72,7 @@ pub(super) fn creep_table(drawn: &Drawn) -> Table {
     let creep = &drawn.cushion.creep;
     let times = creep.first().map_or(&[][..], |own| &own.crept);
     let time = |own: f64| match own {
+        _ if own >= 86_400.0 => format!("{} d", rounded(own / 86_400.0, "1", DIGITS)),
         _ if own >= 3600.0 => format!("{} h", rounded(own / 3600.0, "1", DIGITS)),
         _ if own >= 60.0 => format!("{} min", rounded(own / 60.0, "1", DIGITS)),
         _ => quantity(own, "s", FEW),

@@ -2,8 +2,10 @@
 
 use std::io;
 
-use dashpot_design::cushion::{Asked, Curve, Known};
-use dashpot_plot::{CushionCurve, CushionMark, CushionSeries, Report, ReportFigure, Table};
+use dashpot_design::cushion::{Asked, Curve, Known, StressEnergy};
+use dashpot_plot::{
+    CushionCurve, CushionMark, CushionSeries, Report, ReportFigure, StressEnergySeries, Table,
+};
 
 use super::{
     Drawn, beside,
@@ -20,6 +22,10 @@ use crate::{
 
 /// All points of all curves.
 const TABLE: &str = "cushion.csv";
+/// All points as the stress–energy method sees them.
+const STRESS_ENERGY: &str = "stress-energy.svg";
+/// Places at which its curves are drawn.
+const DRAWN: u16 = 120;
 
 /// `cushion-760mm.svg`.
 fn figure_file(height: f64) -> String {
@@ -29,7 +35,10 @@ fn figure_file(height: f64) -> String {
 /// The files that are written besides the result.
 pub(super) fn names(asked: &Asked) -> Vec<String> {
     let figures = asked.heights.iter().map(|own| figure_file(*own));
-    figures.chain([TABLE, PAGE].map(str::to_owned)).collect()
+    let is_one = asked.heights.len() * asked.thicknesses.len() < 2;
+    let method = (!is_one).then_some(STRESS_ENERGY);
+    let rest = method.into_iter().chain([TABLE, PAGE]).map(str::to_owned);
+    figures.chain(rest).collect()
 }
 
 /// Adds all files but the result.
@@ -41,7 +50,28 @@ pub(super) fn write(files: &mut Staged<'_>, drawn: &Drawn) -> Result<(), CliErro
         files.add(figure_file(*height), &own.svg)?;
         figures.push(own);
     }
+    if let Some(own) = &drawn.cushion.stress_energy {
+        let own = ReportFigure::of(&energies(own).chart())?;
+        files.add(STRESS_ENERGY, &own.svg)?;
+        figures.push(own);
+    }
     files.add(PAGE, page(drawn, figures).html())
+}
+
+/// The stress–energy method as the plain numbers that a figure is drawn from.
+fn energies(own: &StressEnergy) -> StressEnergySeries {
+    let [low, high] = own.range;
+    let places = |at: u16| low + (high - low) * f64::from(at) / f64::from(DRAWN);
+    let place = |energy: f64, stress: f64| (energy / 1e3, in_kpa().of(stress));
+    let drawn = |law: &dyn Fn(f64) -> f64| {
+        list((0..=DRAWN).map(places).map(|energy| place(energy, law(energy))))
+    };
+    StressEnergySeries {
+        note: beside::scatter(own),
+        points: list(own.points.iter().map(|own| place(own[0], own[1]))),
+        smooth: drawn(&|energy| own.smooth(energy)),
+        exponential: drawn(&|energy| own.exponential(energy)),
+    }
 }
 
 /// Writes all points in SI units as CSV; what is missing is blank.

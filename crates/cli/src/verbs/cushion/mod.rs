@@ -63,6 +63,10 @@ pub(crate) struct CushionArguments {
     /// The range of static stresses over which the thinnest cushion has to keep the limit, such as "4..9 kPa".
     #[arg(long, value_name = "PRESSURES")]
     over: Option<String>,
+    /// Exits with 4 unless, from each height, a cushion that was asked for keeps the limit: over the range of `--over`,
+    /// else at any static stress.
+    #[arg(long)]
+    enforce: bool,
     /// So many drops in a row on the same cushion, at every point of the curves.
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(2..=20))]
     drops: Option<u16>,
@@ -109,6 +113,9 @@ pub(crate) fn cushion(
     let scene = checked.value;
     print_notes(&scene.notes);
     let wanted = Wanted::of(arguments, &scene, &input)?;
+    if arguments.enforce && wanted.asked.limit.is_none() {
+        return Err(CliError::NoLimits);
+    }
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(&wanted.asked))?;
     let all = || available_parallelism().map_or(1, NonZero::get);
     let mut asked = wanted.asked.clone();
@@ -122,9 +129,14 @@ pub(crate) fn cushion(
     let is_unsolved = |own: &Known| *own == Known::Unsolved;
     let mut points = found.curves.iter().flat_map(|own| &own.points);
     let has_failed = points.all(|own| is_unsolved(&own.known));
+    let is_kept = found.is_kept();
     let drawn = Drawn { scene, wanted, cushion: found, is_csv: arguments.csv };
     emit(&drawn, arguments.json, folder, terminal)?;
-    Ok(if has_failed { Status::RunFailed } else { Status::Done })
+    Ok(match (has_failed, arguments.enforce && !is_kept) {
+        (true, _) => Status::RunFailed,
+        (false, true) => Status::LimitNotKept,
+        (false, false) => Status::Done,
+    })
 }
 
 impl Study for Drawn {

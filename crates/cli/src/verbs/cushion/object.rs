@@ -104,7 +104,8 @@ fn thinnest(own: &Thinnest) -> impl Serialize {
     });
     object! {
         height: own.height,
-        thickness: all.map(|own| own[0]), peak: all.map(|own| own[1]), stress: all.map(|own| own[2]),
+        thickness: all.map(|own| own.0), peak: all.map(|own| own.1.peak), error: all.map(|own| own.1.error),
+        stress: all.map(|own| own.1.stress),
         is_first: own.is_first, unmet, lightest,
     }
 }

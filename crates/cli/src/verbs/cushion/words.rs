@@ -19,6 +19,8 @@ const FEW: usize = 3;
 const DIGITS: usize = 4;
 /// Digits of a peak, whatever its error.
 const MOST_DIGITS: usize = 5;
+/// What a whole number of units may be off by rounding, in parts of itself.
+const ROUNDING: f64 = 1e-12;
 /// What stands where there is nothing.
 const NONE: &str = "–";
 
@@ -35,6 +37,13 @@ pub(super) fn length(value: f64) -> String {
     rounded(value, "m", DIGITS)
 }
 
+/// A length that is not below the value, as a thinner cushion than one that just keeps a limit does not keep it.
+fn no_less(value: f64) -> String {
+    let unit = 10.0_f64.powf(value.log10().floor() - (DIGITS - 1) as f64);
+    let up = (value / unit * (1.0 - ROUNDING)).ceil() * unit;
+    length(if up.is_finite() { up } else { value })
+}
+
 /// `parcel falls on cushion of 133.3 cm², whose static stress is …`.
 pub(super) fn asked(drawn: &Drawn) -> String {
     let own = &drawn.cushion.platen;
@@ -42,7 +51,8 @@ pub(super) fn asked(drawn: &Drawn) -> String {
     let masses = drawn.cushion.curves.first().map(|curve| {
         let mass = |at: usize| curve.points[at].stress * own.area / own.gravity;
         let [low, high] = [mass(0), mass(curve.points.len() - 1)];
-        format!(", with {} to {}", quantity(low, "kg", FEW), quantity(high, "kg", FEW))
+        let [low, high] = [low, high].map(|own| quantity(own, "kg", FEW));
+        if low == high { format!(", with {low}") } else { format!(", with {low} to {high}") }
     });
     format!("{} falls flat on {area} of {}{}", own.body, own.pad, masses.unwrap_or_default())
 }
@@ -93,14 +103,20 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
     let over = format!("{} to {}", in_kpa().number(over[0], FEW), in_kpa().text(over[1], FEW));
     let height = length(own.height);
     let first = match own.over_all {
-        Ok([thickness, peak, stress]) => {
+        Ok((thickness, worst)) => {
             let first =
                 if own.is_first { "; it is the thinnest one that was asked for" } else { "" };
+            let error = worst.error / worst.peak;
+            let error = if error.is_finite() {
+                format!(" ± {}", percent(error, 1))
+            } else {
+                String::new()
+            };
             let text = format!(
-                "{} keep {limit} from {height} over {over}: at most {} at {}{first}",
-                length(thickness),
-                in_g().text(peak, DIGITS),
-                in_kpa().text(stress, FEW),
+                "{} keep {limit} from {height} over {over}: at most {}{error} at {}{first}",
+                no_less(thickness),
+                in_g().text(worst.peak, DIGITS),
+                in_kpa().text(worst.stress, FEW),
             );
             ("thinnest", text)
         }
@@ -123,7 +139,7 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
     let lightest = own.lightest.map(|[volume, thickness, stress]| {
         let text = format!(
             "{} at {} take the least for {limit} from {height}: {} for each kg",
-            length(thickness),
+            no_less(thickness),
             in_kpa().text(stress, FEW),
             Unit::new("cm³", 1e-6).text(volume * drawn.cushion.platen.gravity, FEW),
         );

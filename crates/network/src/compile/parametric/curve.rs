@@ -49,7 +49,7 @@ impl Curve {
 
     /// How many numbers it has.
     pub(super) fn numbers(&self) -> usize {
-        self.values.iter().filter(|value| value.number().is_some()).count()
+        self.values.iter().map(numbers_of).sum()
     }
 
     /// Reads the numbers of the same law in another network; `None` where it differs in more.
@@ -59,9 +59,12 @@ impl Curve {
             return None;
         }
         for (own, value) in self.values.iter().zip(&values) {
-            match (own.number(), value.number()) {
-                (Some(_), Some(number)) => numbers.push(number),
-                (None, None) if own == value => {}
+            match (own, value) {
+                (Value::Number(_), Value::Number(number)) => numbers.push(*number),
+                (Value::Table(own), Value::Table(points)) if own.len() == points.len() => {
+                    numbers.extend(points.iter().flat_map(|point| [point.0, point.1]));
+                }
+                (own, value) if own == value => {}
                 _ => return None,
             }
         }
@@ -72,9 +75,26 @@ impl Curve {
     pub(super) fn law(&self, numbers: &[f64]) -> Option<Arc<dyn Element>> {
         let mut numbers = numbers.iter();
         let mut values = self.values.clone();
-        for value in values.iter_mut().filter(|value| value.number().is_some()) {
-            *value = Value::Number(*numbers.next()?);
+        for value in &mut values {
+            match value {
+                Value::Number(number) => *number = *numbers.next()?,
+                Value::Table(points) => {
+                    for point in points {
+                        *point = (*numbers.next()?, *numbers.next()?);
+                    }
+                }
+                _ => {}
+            }
         }
         (self.entry.make)(&values).ok().filter(|law| law.validate().is_ok())
+    }
+}
+
+/// How many numbers a value has: the points of a curve are two each.
+fn numbers_of(value: &Value) -> usize {
+    match value {
+        Value::Number(_) => 1,
+        Value::Table(points) => 2 * points.len(),
+        _ => 0,
     }
 }
