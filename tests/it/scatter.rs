@@ -343,6 +343,18 @@ fn what_is_known_of_a_product_is_not_lost_where_its_factors_scatter_together() {
 }
 
 #[test]
+fn what_is_set_keeps_its_part_of_what_scatters_together() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "product.toml", &product(&together(), ""));
+    let own = of_run(path.to_str().unwrap(), &["--set", "K=50 kN/m", "--sample", "400"]);
+    let band = &own["scatter"]["measures"]["pad.peak-force"];
+    let known = peak(50e3);
+    assert!((number(&own["measures"]["pad.peak-force"]["value"]) / known - 1.0).abs() < 1e-9);
+    assert!((number(&band["mean"]) / known - 1.0).abs() < 2e-3, "{band}");
+    assert!((number(&band["deviation"]) / known / OF_FORCE[0] - 1.0).abs() < 0.1, "{band}");
+}
+
+#[test]
 fn a_design_bears_what_scatters_together_and_no_more() {
     // The stiffest spring of which 95 % stay below the limit: 1.6449 standard deviations below it.
     let section = "[design]\nvary = \"K=1..100 kN/m\"\nleast = \"pad.peak-deformation\"\nrobust = \"95%\"\n\

@@ -466,7 +466,7 @@ mod tests {
         ] {
             let text = format!("[values]\nA = \"20 MN/m\"\n[scatter]\n{line}\n");
             let faults = Faults::default();
-            together::check(&Source::new("a.toml", &text).into(), &faults);
+            together::check(&Source::new("a.toml", text.as_str()).into(), &faults);
             let found = faults.finish().render(false);
             assert!(found.contains(told) && found.contains("a.toml:4"), "{line}: {found}");
         }
