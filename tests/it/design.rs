@@ -185,12 +185,25 @@ fn what_cannot_be_asked_for_says_what_to_write() {
         (vec!["--vary", "liner.thickness=10..60 mm", "--least", "head.hic1"], "hic1"),
         (vec!["--solve-for", "liner.thicknes"], "liner.thickness"),
         (vec!["--vary", "liner.thickness=10..60 mm"], "--least"),
+        (
+            vec!["--vary", "liner.thickness=10..10 mm", "--least", "head.hic15"],
+            "lower and an upper",
+        ),
+        (vec!["--vary", "liner.thickness=10..60 mm", "--least", "peak-force"], "liner.peak-force"),
+        (
+            vec!["--vary", "liner.area=1..9 cm^2", "--least", "liner.area", "--test", "a.tom"],
+            "a scene",
+        ),
     ] {
         let output = run(&[&["design", path][..], &arguments].concat());
         println!("{arguments:?}\n{}", err(&output));
         assert_eq!(code(&output), 2, "{arguments:?}");
         assert!(err(&output).contains(told), "{arguments:?}: {}", err(&output));
     }
+    // A word that is no material is told, whatever the others come to.
+    let words = ["--vary", "liner.material=soft,hrad", "--least", "head.peak-acceleration"];
+    let said = out(&run(&[&["design", path][..], &words].concat()));
+    assert!(said.contains("! liner.material = hrad has no design"), "{said}");
     // Both at once cannot be: which limits, and by how much.
     let output = run(&[
         "design",
@@ -255,4 +268,162 @@ fn search_and_grid_agree_in_every_gallery_scene_that_has_limits() {
         let said = out(&run(&["design", &scene, "--sample", count]));
         assert!(said.contains("NONE") && said.contains("tissue.peak-force by"), "{said}");
     }
+}
+
+/// 4 kg at 2 m/s on a spring that is a part of `K`, with limits on both sides.
+fn spring_scene(part: &str, limits: &str) -> String {
+    format!(
+        "[values]\nK = \"50 kN/m\"\n[nodes]\nbox = {{ mass = \"4 kg\", velocity = \"2 m/s\" }}\n\
+         [elements]\npad = {{ between = [\"box\", \"ground\"], spring = \"K * {part}\" }}\n\
+         [limits]\n{limits}\n[run]\nduration = \"100 ms\"\n"
+    )
+}
+
+const BOTH: &str = "pad.peak-deformation = \"20 mm\"\npad.peak-force = \"2 kN\"";
+
+#[test]
+fn scenes_of_their_own_are_tests_and_each_limit_names_the_one_that_decides_it() {
+    let folder = TempDir::new().unwrap();
+    file(&folder, "hot.toml", &spring_scene("0.5", BOTH));
+    file(&folder, "cold.toml", &spring_scene("2", BOTH));
+    let section = "[design]\nvary = \"K=10..500 kN/m\"\nleast = \"K\"\n\
+                   test = [\"hot.toml\", \"winter: cold.toml\"]\n";
+    let path =
+        file(&folder, "pad.toml", &(spring_scene("1", "pad.peak-force = \"1 N\"") + section));
+    // m v² / x² of half of it; the force v √(2 K m) of the other is below its limit.
+    let own = json(&["design", text(&path), "--json"]);
+    let (speed, mass, depth) = (2.0_f64, 4.0, 0.02);
+    let stiffness = 2.0 * mass * speed * speed / (depth * depth);
+    let found = own["parameters"]["K"]["value"].as_f64().unwrap();
+    assert!((found / stiffness - 1.0).abs() < 1e-5 && own["feasible"] == true, "{found}");
+    let decided: Vec<_> =
+        own["limits"].as_array().unwrap().iter().filter(|own| own["decides"] == true).collect();
+    let told =
+        |at: usize| (decided[at]["test"].as_str().unwrap(), decided[at]["key"].as_str().unwrap());
+    assert_eq!(decided.len(), 2, "{}", own["limits"]);
+    assert_eq!([told(0), told(1)], [("hot", "pad.peak-deformation"), ("winter", "pad.peak-force")]);
+    let force = decided[1]["value"].as_f64().unwrap();
+    assert!((force / (speed * (2.0 * found * mass).sqrt()) - 1.0).abs() < 1e-9);
+    // The least force is that of the stiffer test, and the other one holds it.
+    let answer = folder.path().join("answer");
+    let least = ["--least", "pad.peak-force", "--out", text(&answer)];
+    let output = run(&[&["design", text(&path)][..], &least].concat());
+    let said = out(&output);
+    println!("{said}{}", err(&output));
+    assert!(
+        said.contains("in winter") && said.contains("hot: pad.peak-deformation is at its limit")
+    );
+    for name in ["best-2.toml", "best-3.toml"] {
+        let path = answer.join(name);
+        assert_eq!(code(&run(&["run", text(&path), "--enforce"])), 0, "{name}");
+    }
+    // Both at once cannot be: which tests contradict each other.
+    let limit = ["--limit", "pad.peak-force<=1 kN"];
+    let said = out(&run(&[&["design", text(&path)][..], &limit].concat()));
+    assert!(
+        said.contains("hot: pad.peak-deformation by") && said.contains("winter: pad.peak-force by"),
+        "{said}"
+    );
+    // A scene without the number, and one in which it is something else.
+    let other = spring_scene("1", BOTH);
+    for (name, text_of, told) in [
+        ("none.toml", other.replace("K =", "L =").replace("K *", "L *"), "`K` is sought"),
+        ("mass.toml", other.replace("50 kN/m", "50 kg").replace("K * 1", "5 kN/m"), "in kg"),
+        ("broken.toml", "[nodes".to_owned(), "broken.toml"),
+    ] {
+        let scene = file(&folder, name, &text_of);
+        let output = run(&["design", text(&path), "--test", text(&scene)]);
+        println!("{}", err(&output));
+        assert!(code(&output) == 2 && err(&output).contains(told), "{name}: {}", err(&output));
+    }
+}
+
+/// 5 kg on three layers with masses between them, so that their order matters.
+const LAYERS: &str = r#"[materials]
+soft = { parallel = [{ spring = "0.15 MPa" }, { dashpot = "100 Pa s" }] }
+medium = { parallel = [{ spring = "0.3 MPa" }, { dashpot = "1 kPa s" }] }
+hard = { parallel = [{ spring = "0.7 MPa" }, { dashpot = "4 kPa s" }] }
+
+[nodes]
+head = { mass = "5 kg", velocity = "3 m/s" }
+upper = { mass = "0.4 kg" }
+lower = { mass = "0.8 kg" }
+
+[elements]
+front = { between = ["head", "upper"], material = "soft", thickness = "20 mm", area = "150 cm^2" }
+middle = { between = ["upper", "lower"], material = "medium", thickness = "20 mm", area = "150 cm^2" }
+back = { between = ["lower", "ground"], material = "hard", thickness = "20 mm", area = "150 cm^2" }
+
+[effects]
+separation.front = { at = "head" }
+
+[run]
+duration = "80 ms"
+"#;
+const OF_LAYERS: [&str; 3] = ["front", "middle", "back"];
+/// Their thickness in all, and the steps of a grid over it \[mm\].
+const WHOLE: i32 = 60;
+const STEP: usize = 4;
+
+#[test]
+fn the_best_of_three_layers_is_that_of_all_orders_and_thicknesses() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "layers.toml", LAYERS);
+    let mut rows = OF_LAYERS.map(|own| format!("{own}.thickness [mm]")).join(",") + "\n";
+    for front in (4..WHOLE).step_by(STEP) {
+        for middle in (4..WHOLE - front - 3).step_by(STEP) {
+            rows += &format!("{front},{middle},{}\n", WHOLE - front - middle);
+        }
+    }
+    let grid = file(&folder, "grid.csv", &rows);
+    // Every order and every point of the grid; a layer that is pressed by more than its thickness is none.
+    let measures = "head.peak-acceleration,front.peak-strain,middle.peak-strain,back.peak-strain";
+    let mut best = (f64::INFINITY, [""; 3], 0);
+    let (soft, medium, hard) = ("soft", "medium", "hard");
+    let orders = [
+        [soft, medium, hard],
+        [soft, hard, medium],
+        [medium, soft, hard],
+        [medium, hard, soft],
+        [hard, soft, medium],
+        [hard, medium, soft],
+    ];
+    for order in orders {
+        let set = [0, 1, 2].map(|at| format!("{}.material={}", OF_LAYERS[at], order[at]));
+        let asked =
+            ["sweep", text(&path), "--points", text(&grid), "--measure", measures, "--json"];
+        let set = ["--set", &set[0], "--set", &set[1], "--set", &set[2]];
+        let own = json(&[&asked[..], &set].concat());
+        let value = |measure: usize, at: usize| own["measures"][measure]["values"][at].as_f64();
+        for at in 0..rows.lines().count() - 1 {
+            let is_within = (1..4).all(|own| value(own, at).is_some_and(|own| own <= 1.0));
+            let peak = value(0, at).filter(|_| is_within).unwrap_or(f64::INFINITY);
+            if peak < best.0 {
+                best = (peak, order, at);
+            }
+        }
+    }
+    let vary = OF_LAYERS.map(|own| format!("{own}.thickness=4..52 mm"));
+    let total = OF_LAYERS.map(|own| format!("{own}.thickness")).join("+") + "=60 mm";
+    let words = OF_LAYERS.map(|own| format!("{own}.material")).join(",") + "=soft,medium,hard";
+    let asked =
+        ["design", text(&path), "--least", "head.peak-acceleration", "--sample", "49", "--json"];
+    let vary = ["--vary", &vary[0], "--vary", &vary[1], "--vary", &vary[2]];
+    let own = json(&[&asked[..], &vary, &["--vary", &words, "--total", &total]].concat());
+    let found = own["aim"].as_f64().unwrap();
+    let order = OF_LAYERS.map(|of| own["parameters"][format!("{of}.material")]["word"].clone());
+    println!(
+        "{best:?} {:?}; {found} {order:?} {}",
+        rows.lines().nth(best.2 + 1),
+        own["parameters"]
+    );
+    assert_eq!(own["choices"].as_array().unwrap().len(), 6);
+    // Not above the best of the grid, and below it by what its steps leave alone.
+    assert!(order.iter().zip(best.1).all(|(own, known)| own == known), "{order:?} {:?}", best.1);
+    assert!(found <= best.0 * (1.0 + 1e-6) && found > 0.97 * best.0, "{found} {}", best.0);
+    let sum: f64 = OF_LAYERS
+        .iter()
+        .map(|of| own["parameters"][format!("{of}.thickness")]["value"].as_f64().unwrap())
+        .sum();
+    assert!((sum - 0.06).abs() < 1e-12);
 }

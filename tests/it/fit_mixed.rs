@@ -374,3 +374,45 @@ fn records_of_one_test_tell_their_noise_by_what_they_differ_by() {
     let told = words(&out(&run(&asked)));
     assert!(told.contains("3 records of `pad`"), "{told}");
 }
+
+#[test]
+fn the_scatter_of_a_fit_makes_of_measures_what_its_covariance_does() {
+    let (folder, paths) = folder(&[("pad.toml", PAD), ("pressed.csv", &pressed())]);
+    let to = format!("{}:F=pad,rate=0.5 m/s", paths[1]);
+    let (fitted, lines) = (folder.path().join("fitted.toml"), folder.path().join("plain.toml"));
+    let asked = [&["fit", &paths[0], "--to", &to][..], &VARIED].concat();
+    let answer = json(&[&asked[..], &["--scatter", "--out", text(&fitted), "--json"]].concat());
+    let run_of = |path: &str| {
+        json(&["run", path, "--sample", "2000", "--json"])["runs"][0]["scatter"].clone()
+    };
+    let deviation = |own: &Value, key: &str| number(&own["measures"][key]["deviation"]);
+    let own = run_of(text(&fitted));
+    // The same intervals, without what is known of the numbers together.
+    let plain = std::fs::read_to_string(&fitted).unwrap();
+    let mut plain = plain[..plain.find("\n# What the fit leaves open").unwrap()].to_owned();
+    for (name, unit) in [("K", "N/m"), ("K1", "N/m"), ("C1", "N s/m")] {
+        let [low, high, value] =
+            ["low", "high", "value"].map(|key| number(&answer["parameters"][name][key]));
+        let line =
+            plain.lines().find(|own| own.starts_with(&format!("{name} = "))).unwrap().to_owned();
+        let spread = (high - low) / 2.0 / 1.96;
+        plain = plain.replacen(&line, &format!("{name} = \"{value} {unit} ± {spread} {unit}\""), 1);
+    }
+    std::fs::write(&lines, plain).unwrap();
+    let alone = run_of(text(&lines));
+    let mut most: f64 = 1.0;
+    for key in ["pad.peak-force", "pad.peak-deformation", "head.peak-acceleration", "pad.energy"] {
+        let [low, high] = ["low", "high"].map(|end| number(&answer["measures"][key][end]));
+        // 1.96 standard deviations are half of the interval of so many rows, and 2000 designs tell one to 1.6 %.
+        let known = (high - low) / 2.0 / 1.96;
+        let [found, uncorrelated] = [&own, &alone].map(|own| deviation(own, key));
+        println!("{key}: {found:e} {known:e}, of each by itself {uncorrelated:e}");
+        assert!((found / known - 1.0).abs() < 0.06, "{key}: {found} {known}");
+        most = most.max((uncorrelated / known).max(known / uncorrelated));
+    }
+    assert!(most > 1.3, "what is known together does not matter here: {most}");
+    // A second section would be one too many, and what no test determines is not written.
+    let twice = ["fit", text(&fitted), "--to", &to, "--scatter", "--vary", "K=3..300 kN/m"];
+    let output = run(&twice);
+    assert!(code(&output) == 2 && err(&output).contains("[scatter]"), "{}", err(&output));
+}

@@ -300,3 +300,88 @@ fn scatter_of_what_the_scene_does_not_use_is_not_drawn() {
     let with_unused = of_run(path.to_str().unwrap(), &["--sample", "50"])["scatter"].clone();
     assert_eq!(with_unused, scattered);
 }
+
+/// A spring that is a product, of which more is known than of its factors, and the same factors without what is known of
+/// them together.
+const PRODUCT: f64 = 0.05;
+const FACTORS: f64 = 0.3;
+
+fn product(together: &str, further: &str) -> String {
+    scene("25 kN/m", "pad.peak-force = \"1.5 kN\"")
+        .replace("spring = \"K\"", "spring = \"K * part\"")
+        .replace("[nodes]", "part = 1.0\n[nodes]")
+        + &format!("[scatter]\ntogether = [{together}]\n{further}")
+}
+
+fn together() -> String {
+    format!("{{ K = {FACTORS}, part = -{FACTORS} }}, {{ K = {PRODUCT} }}")
+}
+
+fn apart() -> String {
+    format!("{{ K = {FACTORS} }}, {{ part = {FACTORS} }}, {{ K = {PRODUCT} }}")
+}
+
+/// The standard deviation of the logarithm of the peak force, half of that of the product.
+const OF_FORCE: [f64; 2] = [0.5 * PRODUCT, 0.213_600_093_632_938_3];
+
+#[test]
+fn what_is_known_of_a_product_is_not_lost_where_its_factors_scatter_together() {
+    for (text_of, s) in [(together(), OF_FORCE[0]), (apart(), OF_FORCE[1])] {
+        let folder = TempDir::new().unwrap();
+        let path = file(&folder, "product.toml", &product(&text_of, ""));
+        let own = of_run(path.to_str().unwrap(), &["--sample", "2000"])["scatter"].clone();
+        assert!(own["sources"].as_array().unwrap().iter().all(|own| own["together"] == true));
+        let band = &own["measures"]["pad.peak-force"];
+        // The moments of a lognormal distribution around what the means give.
+        let mean = peak(STIFFNESS.0) * (0.5 * s * s).exp();
+        let deviation = mean * (s * s).exp_m1().sqrt();
+        let [found, spread] = ["mean", "deviation"].map(|key| number(&band[key]));
+        println!("{text_of}: {found} {mean}, {spread} {deviation}");
+        assert!((found / mean - 1.0).abs() < 0.25 * s / 2000_f64.sqrt() * 4.0, "{found} {mean}");
+        assert!((spread / deviation - 1.0).abs() < 0.03, "{spread} {deviation}");
+    }
+}
+
+#[test]
+fn what_is_set_keeps_its_part_of_what_scatters_together() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "product.toml", &product(&together(), ""));
+    let own = of_run(path.to_str().unwrap(), &["--set", "K=50 kN/m", "--sample", "400"]);
+    let band = &own["scatter"]["measures"]["pad.peak-force"];
+    let known = peak(50e3);
+    assert!((number(&own["measures"]["pad.peak-force"]["value"]) / known - 1.0).abs() < 1e-9);
+    assert!((number(&band["mean"]) / known - 1.0).abs() < 2e-3, "{band}");
+    assert!((number(&band["deviation"]) / known / OF_FORCE[0] - 1.0).abs() < 0.1, "{band}");
+}
+
+#[test]
+fn a_design_bears_what_scatters_together_and_no_more() {
+    // The stiffest spring of which 95 % stay below the limit: 1.6449 standard deviations below it.
+    let section = "[design]\nvary = \"K=1..100 kN/m\"\nleast = \"pad.peak-deformation\"\nrobust = \"95%\"\n\
+                   scatter = 500\nsample = 40\n";
+    for (text_of, s) in [(together(), OF_FORCE[0]), (apart(), OF_FORCE[1])] {
+        let folder = TempDir::new().unwrap();
+        let path = file(&folder, "product.toml", &product(&text_of, section));
+        let own = json(&["design", path.to_str().unwrap(), "--json"]);
+        let found = number(&own["parameters"]["K"]["value"]);
+        let known = (1500.0_f64 / 5.0).powi(2) / 4.0 * (-2.0 * 1.644_853_627 * s).exp();
+        println!("{text_of}: {found} {known} {}", own["robust"]);
+        // The sample tells the quantile to some parts of 500 designs.
+        assert!((found / known - 1.0).abs() < 0.5 * s + 1e-3, "{found} {known}");
+        assert!(own["feasible"] == true && number(&own["robust"]["kept"]) >= 475.0);
+    }
+}
+
+#[test]
+fn what_is_wrong_with_numbers_that_scatter_together_is_told() {
+    for (text_of, told) in [
+        ("{ E = 0.1 }", "no number `E`"),
+        ("{ K = \"3 mm\" }", "a part of itself"),
+        ("{ K = 5 }", "−100 to 100 %"),
+    ] {
+        let folder = TempDir::new().unwrap();
+        let path = file(&folder, "product.toml", &product(text_of, ""));
+        let output = run(&["run", path.to_str().unwrap()]);
+        assert!(code(&output) == 2 && err(&output).contains(told), "{text_of}: {}", err(&output));
+    }
+}

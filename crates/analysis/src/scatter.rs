@@ -33,6 +33,9 @@ pub struct ScatterSource {
     pub cut_above: Option<f64>,
     /// The part of the normal distribution that is cut off.
     pub beyond: f64,
+    /// Whether it scatters together with others: then its logarithm is normally distributed.
+    #[serde(rename = "together")]
+    pub is_together: bool,
 }
 
 /// What a measure is over the sample, in its SI unit. The numerical errors of single designs are not in it.

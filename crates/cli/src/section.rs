@@ -13,12 +13,15 @@ const OF_THE_CALL: [&str; 4] = ["out", "force", "json", "set"];
 /// A global option, which may stand among those of a verb.
 const COLOR: &str = "color";
 
+/// Where in a value the name of a file begins, if it has one.
+type FileAt = fn(&str) -> Option<usize>;
+
 /// A verb that has a section.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Verb {
     pub(crate) name: &'static str,
-    /// Its options whose values begin with the name of a file.
-    pub(crate) files: &'static [&'static str],
+    /// Its options whose values may name a file, and where in a value that begins.
+    pub(crate) files: &'static [(&'static str, FileAt)],
 }
 
 impl Verb {
@@ -111,8 +114,11 @@ impl Verb {
                 Ok(vec![format!("{option}={value}").into()])
             }
             _ => Ok(list(wish.values.iter().map(|value| {
-                let is_file = self.files.contains(name);
-                let value = if is_file { beside(file, value) } else { value.clone() };
+                let named = self.files.iter().find(|own| own.0 == *name);
+                let value = match named.and_then(|own| own.1(value)) {
+                    Some(at) => format!("{}{}", &value[..at], beside(file, &value[at..])),
+                    None => value.clone(),
+                };
                 format!("{option}={value}").into()
             }))),
         }
@@ -149,7 +155,7 @@ mod tests {
         out: Option<String>,
     }
 
-    const VERB: Verb = Verb { name: "fit", files: &["to"] };
+    const VERB: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
 
     fn words(all: &[&str]) -> Vec<OsString> {
         list(all.iter().map(OsString::from))

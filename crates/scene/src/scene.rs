@@ -28,11 +28,11 @@ use crate::{
         source::{Place, Source, set_source},
         table::{text_of, unknown_key},
     },
-    vary::{scatter::ScatteredNumber, set::Settled, tunable::TunableFault},
+    vary::{scatter::ScatteredNumber, set::Settled, together, tunable::TunableFault},
 };
 
 /// The sections of a scene and of a file of models.
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 15] = [
     "title",
     "values",
     "models",
@@ -47,6 +47,7 @@ const SECTIONS: [&str; 14] = [
     "run",
     "fit",
     "design",
+    together::SECTION,
 ];
 
 /// Everything that a scene says, checked.
@@ -406,6 +407,9 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     let Parts { reading, network, title, measures, limits, accuracy, mut notes } =
         Parts::read(&library, faults);
     let (mut run, stops) = read_run(&reading);
+    if faults.errors() == 0 {
+        together::check(&source, faults);
+    }
     if faults.errors() > 0 {
         return None;
     }

@@ -49,6 +49,18 @@ pub(super) struct Evaluated {
 }
 
 impl Requirement {
+    /// Whether both ask for the same, each in its test: the same side of a measure, whatever the bounds are.
+    pub fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Limit(one), Self::Limit(other)) => {
+                one.key == other.key && one.bound.sign() == other.bound.sign()
+            }
+            (Self::Known(one), Self::Known(other)) => one == other,
+            (Self::Ceiling(one, _), Self::Ceiling(other, _)) => one == other,
+            _ => false,
+        }
+    }
+
     /// How far a value exceeds it, in parts of the bound; negative where it is kept.
     pub(super) fn excess(&self, value: f64, slack: f64) -> f64 {
         match self {

@@ -50,6 +50,14 @@ impl Design {
     pub fn least_margin(&self) -> f64 {
         self.kept.iter().map(|own| own.margin).fold(f64::INFINITY, f64::min)
     }
+
+    /// Whether no other test leaves less to what is required here; of those that leave as much it is the first.
+    pub fn decides(&self, own: &Kept) -> bool {
+        let alike =
+            self.kept.iter().filter(|other| other.required.what.is_like(&own.required.what));
+        let first = alike.min_by(|one, other| one.margin.total_cmp(&other.margin));
+        first.is_some_and(|first| first.required == own.required)
+    }
 }
 
 /// A design that was looked at.

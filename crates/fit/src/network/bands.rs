@@ -28,6 +28,17 @@ pub struct Band {
 }
 
 impl NetworkFit {
+    /// The independent causes of what is not known of the numbers: what one standard deviation of each adds to their
+    /// logarithms. The covariance is the sum of their squares, `Σ s sᵀ`, along what is determined.
+    pub fn causes(&self) -> Vec<Vec<f64>> {
+        let own = self.determined.clone().symmetric_eigen();
+        let each = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
+        let known = each.filter(|own| *own.0 > 0.0);
+        known
+            .map(|(variance, axis)| axis.iter().map(|own| own * variance.sqrt()).collect())
+            .collect()
+    }
+
     /// The bands of what is read where the numbers have some values, by differences along the axes of their covariance,
     /// one standard deviation long. `None` where there is nothing to read at the minimum.
     pub fn bands(&self, read: &Read<'_>) -> Option<Vec<Option<Band>>> {

@@ -77,10 +77,31 @@ pub fn schema() -> Value {
             "run": run(),
             "fit": options_of("fit"),
             "design": options_of("design"),
+            "scatter": together(),
         },
         "required": ["elements", "run"],
         "additionalProperties": false,
         "$defs": definitions(),
+    })
+}
+
+/// Numbers that scatter together.
+fn together() -> Value {
+    json!({
+        "description": "numbers that scatter together, such as those of a fit",
+        "type": "object",
+        "properties": {
+            "together": {
+                "description": "independent causes, and what one standard deviation of each adds to numbers, by \
+                                their names, in parts of them",
+                "type": "array",
+                "items": {
+                    "type": "object",
+                    "additionalProperties": { "type": ["string", "number", "object"] },
+                },
+            },
+        },
+        "additionalProperties": false,
     })
 }
 

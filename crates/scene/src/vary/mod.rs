@@ -4,5 +4,6 @@ pub(crate) mod listed;
 mod sample;
 pub(crate) mod scatter;
 pub(crate) mod set;
+pub(crate) mod together;
 pub(crate) mod tunable;
 pub(crate) mod variation;

@@ -6,8 +6,9 @@ use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
 use super::{
     sample::stratified,
+    together::{self, Cause, causes},
     tunable::{Tunable, Tunables},
-    variation::{handy, number_text},
+    variation::{Written, handy, number_text},
 };
 use crate::{
     diagnostics::Diagnostics,
@@ -15,7 +16,7 @@ use crate::{
     units::{Quantity, parse_quantity},
 };
 
-/// A number of a scene that is normally distributed.
+/// A number of a scene that is normally distributed, or, where it scatters together with others, its logarithm is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScatteredNumber {
     /// Its path in full.
@@ -30,6 +31,8 @@ pub struct ScatteredNumber {
     pub dimension: Option<Dimension>,
     /// As it is written, mean and standard deviation in one unit: `20 ± 2 MN/m`.
     pub text: String,
+    /// Whether it scatters together with others, as `[scatter]` says.
+    pub is_together: bool,
 }
 
 impl ScatteredNumber {
@@ -49,11 +52,33 @@ impl ScatteredNumber {
     ///
     /// What is wrong with the text as TOML.
     pub fn all(text: &str, file: Option<&str>) -> Result<Vec<Self>, Diagnostics> {
-        if !Scatter::is_possible(text) {
+        if !is_possible(text) {
             return Ok(Vec::new());
         }
         let tunables = Tunables::of(text, file)?;
-        Ok(scattered(&tunables).map(|(_, own, scatter)| Self::of(own, scatter)).collect())
+        let alone = scattered(&tunables).map(|(_, own, scatter)| Self::of(own, scatter));
+        let causes = causes(text, &tunables);
+        let together = in_causes(&causes).into_iter();
+        let together = together.map(|at| Self::of_causes(&tunables, at, &causes));
+        Ok(alone.chain(together).collect())
+    }
+
+    /// A number that scatters together with others; its standard deviation in parts of it is the root of the sum of the
+    /// squares of its shares.
+    fn of_causes(tunables: &Tunables, at: usize, causes: &[Cause]) -> Self {
+        let own = &tunables.all()[at];
+        let squares: f64 = shares(causes, at).map(|own| own * own).sum();
+        let part = squares.sqrt();
+        let rounded: f64 = format!("{:.2e}", 100.0 * part).parse().unwrap_or(100.0 * part);
+        Self {
+            path: own.path.clone(),
+            name: own.name.clone(),
+            mean: own.value,
+            deviation: own.value.abs() * part,
+            dimension: own.dimension,
+            text: format!("{} ± {rounded} %", tunables.shown(at)),
+            is_together: true,
+        }
     }
 
     fn of(own: &Tunable, scatter: &Scatter) -> Self {
@@ -80,8 +105,28 @@ impl ScatteredNumber {
             deviation,
             dimension: own.dimension,
             text,
+            is_together: false,
         }
     }
+}
+
+/// Whether a text may have numbers with scatter; most have none.
+fn is_possible(text: &str) -> bool {
+    Scatter::is_possible(text) || together::is_possible(text)
+}
+
+/// The numbers that scatter together, rising.
+fn in_causes(causes: &[Cause]) -> Vec<usize> {
+    let mut all: Vec<usize> = causes.iter().flat_map(|own| &own.shares).map(|own| own.0).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// What each cause adds to the logarithm of a number.
+fn shares(causes: &[Cause], at: usize) -> impl Iterator<Item = f64> + '_ {
+    let of = move |own: &Cause| own.shares.iter().find(|own| own.0 == at).map_or(0.0, |own| own.1);
+    causes.iter().map(of)
 }
 
 fn scattered(tunables: &Tunables) -> impl Iterator<Item = (usize, &Tunable, &Scatter)> {
@@ -103,6 +148,8 @@ pub struct Drawn {
     at: usize,
     unit: String,
     values: Vec<f64>,
+    /// Which random numbers it was drawn with; those of causes have streams of their own.
+    stream: u64,
 }
 
 /// Designs drawn from the scatter of a scene.
@@ -128,6 +175,8 @@ pub enum Change {
 const FINEST: f64 = 1e-6;
 /// Halvings until then, from as far as any value is drawn.
 const HALVINGS: usize = 30;
+/// Streams of random numbers from here on are those of causes.
+const OF_CAUSES: u64 = 1 << 32;
 /// No value is drawn nearer to the ends of its distribution than this part of it.
 const OUTERMOST: f64 = 1e-12;
 
@@ -135,7 +184,9 @@ impl Sample {
     /// `count` designs of a Latin hypercube of the numbers with scatter in a scene's text: each distribution is
     /// cut into `count` parts of equal probability, one value lies at a random place in each, and their order is
     /// random, independently for each number. The values of a number depend on `seed`, on `count`, on its
-    /// position among those with scatter, and on nothing else. `change` tells what a text with another value of one of
+    /// position among those with scatter, and on nothing else; what another scene of the same design has drawn as
+    /// well, by the same path, is drawn as there. Numbers that scatter together are `x exp(Σ sᵢ zᵢ)` with
+    /// their shares `sᵢ` of independent causes, `zᵢ` from such a hypercube of normal distributions. `change` tells what a text with another value of one of
     /// them is to the scene. A number that changes nothing is not drawn, and does not count; where the outermost
     /// values are refused, the distribution is cut off at the first of them. `None` where no number has scatter.
     ///
@@ -149,32 +200,64 @@ impl Sample {
         count: usize,
         seed: u64,
         change: &dyn Fn(&str) -> Change,
+        beside: Option<&Self>,
     ) -> Result<Option<Self>, Diagnostics> {
-        if !Scatter::is_possible(text) {
+        if !is_possible(text) {
             return Ok(None);
         }
         let tunables = Tunables::of(text, None)?;
-        let changed = |at: usize, value: f64, scatter: &Scatter| {
-            change(&tunables.text_with(&[(at, number_text(value, &scatter.unit))]))
+        let changed = |at: usize, value: f64, unit: &str| {
+            change(&tunables.text_with(&[(at, number_text(value, unit))]))
         };
-        let is_used = |(at, _, scatter): &(usize, &Tunable, &Scatter)| {
-            let sides = [1.0, -1.0].map(|side| scatter.mean + side * scatter.deviation);
-            let mut read = sides.into_iter().map(|value| changed(*at, value, scatter));
+        let is_used = |at: usize, sides: [f64; 2], unit: &str| {
+            let mut read = sides.into_iter().map(|value| changed(at, value, unit));
             read.find(|own| *own != Change::Refused) != Some(Change::Nothing)
         };
-        let drawn: Vec<Drawn> = scattered(&tunables)
-            .filter(is_used)
-            .zip(0..)
-            .map(|((at, own, scatter), stream)| {
-                let mut random = ChaCha8Rng::seed_from_u64(seed);
-                random.set_stream(stream);
-                let places = stratified(&mut random, count);
+        let is_scattered = |(at, _, scatter): &(usize, &Tunable, &Scatter)| {
+            let sides = [1.0, -1.0].map(|side| scatter.mean + side * scatter.deviation);
+            is_used(*at, sides, &scatter.unit)
+        };
+        // Behind those of the other scene, which have their own.
+        let known = beside.map_or(&[][..], Self::drawn);
+        let mut next = known.iter().filter(|own| !own.number.is_together).count() as u64;
+        let mut stream_of = |path: &str| {
+            let known = known.iter().find(|own| own.number.path == path).map(|own| own.stream);
+            known.unwrap_or_else(|| {
+                next += 1;
+                next - 1
+            })
+        };
+        let mut all: Vec<Drawn> = scattered(&tunables)
+            .filter(is_scattered)
+            .map(|(at, own, scatter)| {
+                let stream = stream_of(&own.path);
                 let number = ScatteredNumber::of(own, scatter);
-                let reads = |value: f64| changed(at, value, scatter) != Change::Refused;
-                drawn((at, number), scatter, &places, &reads)
+                let reads = |value: f64| changed(at, value, &scatter.unit) != Change::Refused;
+                drawn((at, number), scatter, (stream, &places(seed, stream, count)), &reads)
             })
             .collect();
-        Ok((!drawn.is_empty()).then_some(Self { tunables, drawn, count }))
+        let causes = causes(text, &tunables);
+        let z = |cause: usize| -> Vec<f64> {
+            let places = places(seed, OF_CAUSES + cause as u64, count).into_iter();
+            places.map(|own| quantile(own.clamp(OUTERMOST, 1.0 - OUTERMOST))).collect()
+        };
+        let z: Vec<Vec<f64>> = (0..causes.len()).map(z).collect();
+        for at in in_causes(&causes) {
+            let number = ScatteredNumber::of_causes(&tunables, at, &causes);
+            let (written, unit) = tunables.written(at);
+            let mean = Written::split(written).number;
+            let part = number.deviation / number.mean.abs();
+            if !is_used(at, [part, -part].map(|own| mean * own.exp()), unit) {
+                continue;
+            }
+            let sum = |design: usize| -> f64 {
+                shares(&causes, at).zip(&z).map(|(share, z)| share * z[design]).sum()
+            };
+            let values = (0..count).map(|design| handy(mean * sum(design).exp())).collect();
+            let (unit, cut) = (unit.to_owned(), [None, None]);
+            all.push(Drawn { number, cut, beyond: 0.0, at, unit, values, stream: OF_CAUSES });
+        }
+        Ok((!all.is_empty()).then_some(Self { tunables, drawn: all, count }))
     }
 
     /// How many designs there are.
@@ -195,11 +278,18 @@ impl Sample {
     }
 }
 
+/// Places in a distribution, from 0 to 1, one in each of so many parts of it.
+fn places(seed: u64, stream: u64, count: usize) -> Vec<f64> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(stream);
+    stratified(&mut random, count)
+}
+
 /// The values of a number at these places of its distribution, from 0 to 1.
 fn drawn(
     (at, number): (usize, ScatteredNumber),
     scatter: &Scatter,
-    places: &[f64],
+    (stream, places): (u64, &[f64]),
     reads: &dyn Fn(f64) -> bool,
 ) -> Drawn {
     let &Scatter { mean, deviation, .. } = scatter;
@@ -226,6 +316,7 @@ fn drawn(
         at,
         unit: scatter.unit.clone(),
         values,
+        stream,
     }
 }
 
@@ -248,13 +339,14 @@ fn bound(read: f64, refused: f64, deviation: f64, reads: &dyn Fn(f64) -> bool) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{diagnostics::Faults, text::source::Source};
 
     const TEXT: &str =
         "[values]\nK = \"20 ± 2 MN/m\"\n[nodes]\nhead = { mass = \"5 kg ± 10 %\" }\n";
 
     fn sample(text: &str, count: usize, accepts: &dyn Fn(&str) -> bool) -> Sample {
         let change = |text: &str| if accepts(text) { Change::Some } else { Change::Refused };
-        Sample::of(text, count, 1, &change).unwrap().unwrap()
+        Sample::of(text, count, 1, &change, None).unwrap().unwrap()
     }
 
     #[test]
@@ -309,21 +401,74 @@ mod tests {
         };
         let values =
             |own: &Sample| own.drawn().iter().map(|own| own.values.clone()).collect::<Vec<_>>();
-        let own = Sample::of(&with, 20, 1, &is_other).unwrap().unwrap();
+        let own = Sample::of(&with, 20, 1, &is_other, None).unwrap().unwrap();
         assert_eq!(values(&own), values(&sample(TEXT, 20, &|_| true)));
-        assert!(Sample::of(TEXT, 20, 1, &|_| Change::Nothing).unwrap().is_none());
+        assert!(Sample::of(TEXT, 20, 1, &|_| Change::Nothing, None).unwrap().is_none());
     }
 
     #[test]
     fn a_seed_repeats_and_a_scene_without_scatter_has_no_sample() {
         let texts = |seed: u64| {
-            let own = Sample::of(TEXT, 20, seed, &|_| Change::Some).unwrap().unwrap();
+            let own = Sample::of(TEXT, 20, seed, &|_| Change::Some, None).unwrap().unwrap();
             (0..20).map(|at| own.text(at)).collect::<Vec<_>>()
         };
         assert_eq!(texts(1), texts(1));
         assert_ne!(texts(1), texts(2));
         for text in ["[values]\nK = \"20 MN/m\"\n", "[values]\nK = \"20 ± 0 MN/m\"\n"] {
-            assert!(Sample::of(text, 20, 1, &|_| Change::Some).unwrap().is_none());
+            assert!(Sample::of(text, 20, 1, &|_| Change::Some, None).unwrap().is_none());
+        }
+    }
+
+    /// Two factors that have a product with far less scatter than each of them, and one that moves alone.
+    const TOGETHER: &str = "[values]\nA = \"20 MN/m\"\nB = 3.0\n[nodes]\nhead = { mass = \"5 kg\" }\n\
+        [scatter]\ntogether = [{ A = \"30 %\", B = \"-30 %\" }, { A = 0.005, B = 0.005 }, { head.mass = 0.1 }]\n";
+
+    #[test]
+    fn what_scatters_together_has_the_spread_of_its_causes_and_of_what_is_made_of_it() {
+        let count = 4000;
+        let own = sample(TOGETHER, count, &|_| true);
+        let logs =
+            |at: usize| -> Vec<f64> { own.drawn[at].values.iter().map(|own| own.ln()).collect() };
+        let deviation = |all: &[f64]| {
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            (all.iter().map(|own| (own - mean).powi(2)).sum::<f64>() / all.len() as f64).sqrt()
+        };
+        let (a, b, mass) = (logs(0), logs(1), logs(2));
+        let product: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + b).collect();
+        for (all, known) in [(&a, 0.3_f64.hypot(0.005)), (&product, 0.01), (&mass, 0.1)] {
+            // A hypercube with so many parts has the deviation of the distribution to 1/√count at the worst.
+            assert!((deviation(all) / known - 1.0).abs() < 0.02, "{} {known}", deviation(all));
+        }
+        let numbers = ScatteredNumber::all(TOGETHER, None).unwrap();
+        assert_eq!(numbers.len(), 3);
+        assert!(numbers.iter().all(|own| own.is_together));
+        assert!((numbers[2].deviation - 0.5).abs() < 1e-12 && numbers[2].text == "5 kg ± 10 %");
+    }
+
+    #[test]
+    fn a_number_of_two_scenes_is_drawn_as_in_the_first() {
+        let first = sample(TEXT, 20, &|_| true);
+        let other = "[values]\nL = \"3 ± 1 mm\"\nK = \"20 ± 2 MN/m\"\n";
+        let own = Sample::of(other, 20, 1, &|_| Change::Some, Some(&first)).unwrap().unwrap();
+        assert_eq!(own.drawn[1].values, first.drawn[0].values);
+        assert!(own.drawn[0].stream == 2 && own.drawn[0].values != first.drawn[0].values);
+    }
+
+    #[test]
+    fn a_section_that_says_nothing_of_a_number_is_refused() {
+        for (line, told) in [
+            ("together = [{ C = 0.1 }]", "no number `C`"),
+            ("together = [{ A = \"3 kN\" }]", "part of itself"),
+            ("together = [{ A = 3 }]", "part of itself"),
+            ("together = { A = 0.1 }", "a list of tables"),
+            ("apart = []", "apart"),
+            ("together = [{ A = 0.1, values.A = 0.2 }]", "twice"),
+        ] {
+            let text = format!("[values]\nA = \"20 MN/m\"\n[scatter]\n{line}\n");
+            let faults = Faults::default();
+            together::check(&Source::new("a.toml", text.as_str()).into(), &faults);
+            let found = faults.finish().render(false);
+            assert!(found.contains(told) && found.contains("a.toml:4"), "{line}: {found}");
         }
     }
 }

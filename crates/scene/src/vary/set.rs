@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::tunable::{TunableFault, Tunables};
+use super::{
+    together,
+    tunable::{TunableFault, Tunables},
+};
 use crate::{
     diagnostics::Faults,
     quantities::{bare::BareNumber, scatter::Scatter},
@@ -26,7 +29,9 @@ impl<'t> Settled<'t> {
         let text = Cow::Borrowed(text);
         let mut own = Self { text, named: set.to_vec(), astray: Vec::new() };
         let is_scattered = |text: &str| Scatter::is_possible(text);
-        let has_scatter = is_scattered(&own.text) || set.iter().any(|own| is_scattered(&own.1));
+        let has_scatter = is_scattered(&own.text)
+            || together::is_possible(&own.text)
+            || set.iter().any(|own| is_scattered(&own.1));
         // Whether names under [values] are set without a unit is looked at where these are read.
         if set.is_empty() || !has_scatter && all_are_named(&own.text, set) {
             return own;

@@ -78,6 +78,9 @@ impl VariationFault {
         match self {
             Self::UnknownScale { near: Some(near), .. } => format!("did you mean `{near}`?"),
             Self::Another { text } => format!("write `--vary` once more, for all combinations: `--vary \"{text}\"`"),
+            Self::Falling { first, second } if first == second => {
+                "give a lower and an upper end, and leave out what does not vary".to_owned()
+            }
             Self::Falling { first, second } => format!("write them as `{second}..{first}`, rising"),
             _ => "write `--vary \"K=5..30 MN/m,26,log\"` for 26 values at equal ratios (`lin`: equal \
                   differences), or `--vary \"K=5,10,20 MN/m\"` for a list"

@@ -83,10 +83,9 @@ impl Among {
         self.places.iter().copied()
     }
 
-    /// The places with what stands there in an option.
-    pub(super) fn written(&self, option: usize) -> impl Iterator<Item = (usize, String)> + '_ {
-        let texts = self.options[option].iter().map(|own| own.text.clone());
-        self.places.iter().copied().zip(texts)
+    /// What stands in its places in an option.
+    pub(super) fn written(&self, option: usize) -> impl Iterator<Item = String> + '_ {
+        self.options[option].iter().map(|own| own.text.clone())
     }
 }
 
@@ -130,7 +129,8 @@ mod tests {
         let own = Among::of(group.into_iter().zip([3, 5]).collect());
         assert_eq!(own.names, ["a.material", "b.material"]);
         let written: Vec<_> = own.written(1).collect();
-        assert_eq!(written, [(3, "hard".to_owned()), (5, "soft".to_owned())]);
+        assert_eq!(written, ["hard", "soft"]);
+        assert_eq!(own.places().collect::<Vec<_>>(), [3, 5]);
         assert!(Among::parse("a.material,b.material=soft").is_err());
     }
 

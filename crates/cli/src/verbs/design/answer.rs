@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{
     among::{Choice, Taken},
-    asked::Asked,
+    asked::{Asked, Least},
     files,
     front::Point,
     tables, words,
@@ -39,8 +39,8 @@ pub(super) struct Answer {
     pub(super) front: Vec<Point>,
     /// Of the best, test by test.
     pub(super) floors: Vec<FloorTold>,
-    /// The scene with the best.
-    pub(super) text: String,
+    /// The scenes of all tests with the best, that of the command first.
+    pub(super) texts: Vec<String>,
     /// For figures: what becomes of the best along each number.
     pub(super) slices: Vec<Vec<Looked>>,
     /// What the command line asks for, in words.
@@ -68,10 +68,24 @@ impl Answer {
         Some((choice, design.as_ref().ok()?))
     }
 
+    /// The scene with the best.
+    pub(super) fn text(&self) -> &str {
+        self.texts.first().map_or("", String::as_str)
+    }
+
     /// The name of a test, where there is more than one.
     pub(super) fn test_name(&self, test: usize) -> Option<&str> {
         let name = &self.asked.tests[test].name;
         (!name.is_empty()).then_some(name)
+    }
+
+    /// The test in which a measure that is made least is largest, where there is more than one.
+    pub(super) fn test_of_aim(&self, best: &Design) -> Option<&str> {
+        let Least::Measure(key) = &self.asked.least else { return None };
+        let value = |run: &RunReport| run.measure(key).and_then(|own| own.value);
+        let each = best.runs.iter().enumerate().filter_map(|(at, run)| Some((at, value(run)?)));
+        let (at, _) = each.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        self.test_name(at)
     }
 
     fn limits<'a>(&'a self, best: &'a Design) -> Vec<LimitTold<'a>> {
@@ -79,7 +93,8 @@ impl Answer {
             let Requirement::Limit(limit) = &kept.required.what else { return None };
             let judged = best.runs[kept.required.test].judged();
             let judged = judged.into_iter().find(|own| own.limit.is_same(limit))?;
-            Some(LimitTold { test: self.test_name(kept.required.test), judged, kept: kept.into() })
+            let (test, decides) = (self.test_name(kept.required.test), best.decides(kept));
+            Some(LimitTold { test, decides, judged, kept: kept.into() })
         });
         list(each)
     }
@@ -103,6 +118,8 @@ impl From<&Kept> for Held {
 #[derive(Serialize)]
 struct LimitTold<'a> {
     test: Option<&'a str>,
+    /// Whether no other test leaves less to it.
+    decides: bool,
     #[serde(flatten)]
     judged: Judged<'a>,
     #[serde(flatten)]
@@ -165,7 +182,13 @@ impl Study for Answer {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let mut all: Vec<String> = Vec::new();
+        let unsolved = self.found.iter().filter_map(|own| {
+            let why = own.design.as_ref().err()?;
+            let chosen = self.asked.chosen(&own.choice);
+            let chosen = chosen.map(|(name, own)| format!("{name} = {}", own.shown));
+            Some(format!("{} has no design: {why}", list(chosen).join(", ")))
+        });
+        let mut all: Vec<String> = list(unsolved);
         let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
         for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
             if !all.contains(&warning) {
@@ -187,7 +210,8 @@ impl Study for Answer {
             let Requirement::Known(of) = &own.required.what else { return None };
             let (test, held) = (self.test_name(own.required.test), Held::from(own));
             let (active, price) = (held.active, held.price);
-            Some(object! { test, of, part: own.value, margin: own.margin, active, price })
+            let decides = design.is_some_and(|design| design.decides(own));
+            Some(object! { test, decides, of, part: own.value, margin: own.margin, active, price })
         });
         let tests = design.into_iter().flat_map(|own| own.runs.iter().zip(&self.floors));
         let tests = tests.enumerate().map(|(at, (run, floor))| {
@@ -220,6 +244,7 @@ impl Study for Answer {
             least: self.asked.least.name(&self.asked),
             and: self.asked.and.as_ref().map(|own| own.name(&self.asked)),
             aim: design.map(|own| own.aim),
+            aim_test: design.and_then(|own| self.test_of_aim(own)),
             feasible: design.is_some_and(super::is_feasible),
             measures: design.map(|own| worst(&own.runs)),
             limits: design.map(|own| self.limits(own)),

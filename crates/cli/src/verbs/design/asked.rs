@@ -1,14 +1,15 @@
 //! What a design is asked for: numbers with bounds and sums, choices, tests, and what is made least.
 
 use dashpot_design::optimum::{Aim, Total, Variable};
-use dashpot_scene::{Scene, Tunables, Variation, units::Dimension};
+use dashpot_scene::{Tunables, Variation, units::Dimension};
 
 use super::{
     DesignArguments,
     among::{Among, Choice, Taken},
+    scenes::Test,
     total,
 };
-use crate::{args::Variant, error::CliError, input::Input, output::list, varied::Varied};
+use crate::{error::CliError, output::list, varied::Varied};
 
 /// What `--solve-for` looks at, in parts of what the scene has.
 const AROUND: [f64; 2] = [0.1, 10.0];
@@ -29,7 +30,7 @@ pub(super) struct Asked {
     /// What is made least besides.
     pub(super) and: Option<Least>,
     /// The tests; one without a name is the scene as it is.
-    pub(super) tests: Vec<Variant>,
+    pub(super) tests: Vec<Test>,
 }
 
 /// What is made least.
@@ -64,12 +65,9 @@ impl Least {
 impl Asked {
     pub(super) fn of(
         arguments: &DesignArguments,
-        scene: &Scene,
-        input: &Input,
+        tunables: Tunables,
+        tests: Vec<Test>,
     ) -> Result<Self, CliError> {
-        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
-        let plain = || Variant { name: String::new(), set: Vec::new() };
-        let tests = if arguments.test.is_empty() { vec![plain()] } else { arguments.test.clone() };
         let (numbers, among) = (Vec::new(), Vec::new());
         let (totals, least, and) = (Vec::new(), Least::Number(0), None);
         let mut asked = Self { tunables, numbers, totals, among, least, and, tests };
@@ -78,7 +76,6 @@ impl Asked {
         }
         asked.vary(&arguments.vary)?;
         asked.totals = total::totals(&arguments.total, &asked.numbers)?;
-        asked.check_set(&arguments.scene.values.set)?;
         if let Some(name) = &arguments.least {
             asked.least = asked.least_of("--least", name)?;
         }
@@ -142,19 +139,6 @@ impl Asked {
         }
         self.numbers.push(Varied::of(&self.tunables, named, bounds, of_command));
         Ok(())
-    }
-
-    /// What is set, by the command or a test, stands above what is sought: it cannot be both.
-    fn check_set(&self, set: &[(String, String)]) -> Result<(), CliError> {
-        let sought = self.numbers.iter().filter_map(|own| own.at);
-        let sought: Vec<usize> = list(sought.chain(self.among.iter().flat_map(Among::places)));
-        let is_sought =
-            |name: &str| self.tunables.anything(name).is_ok_and(|own| sought.contains(&own));
-        let all = set.iter().chain(self.tests.iter().flat_map(|own| &own.set));
-        match all.map(|own| &own.0).find(|own| is_sought(own)) {
-            Some(name) => Err(CliError::SetAndVaried { name: name.clone() }),
-            None => Ok(()),
-        }
     }
 
     fn least_of(&self, flag: &str, name: &str) -> Result<Least, CliError> {

@@ -30,9 +30,15 @@ const FRONT_FIGURE: &str = "front.svg";
 const MAP: &str = "map.svg";
 
 /// The files of a folder besides the result.
-pub(super) fn all_names(asked: &Asked) -> impl Iterator<Item = String> {
-    let own = [SCENE, DESIGNS, FRONT, FRONT_FIGURE, MAP, PAGE].map(str::to_owned);
-    own.into_iter().chain((0..asked.numbers.len()).map(limits_file))
+pub(super) fn all_names(asked: &Asked, scenes: usize) -> impl Iterator<Item = String> {
+    let own = [DESIGNS, FRONT, FRONT_FIGURE, MAP, PAGE].map(str::to_owned);
+    let numbers = (0..asked.numbers.len()).map(limits_file);
+    own.into_iter().chain((0..scenes).map(scene_file)).chain(numbers)
+}
+
+/// The scene with what was found, and those of tests that have their own.
+fn scene_file(scene: usize) -> String {
+    if scene == 0 { SCENE.to_owned() } else { format!("best-{}.toml", scene + 1) }
 }
 
 fn limits_file(number: usize) -> String {
@@ -52,9 +58,7 @@ impl DesignArguments {
         let set = |own: &[(String, String)]| {
             list(own.iter().map(|own| format!("{}={}", own.0, own.1))).join(", ")
         };
-        all.extend(
-            self.test.iter().map(|own| ("test", format!("{}: {}", own.name, set(&own.set)))),
-        );
+        all.extend(self.test.iter().map(|own| ("test", own.in_words(set(&own.set)))));
         let scene = &self.scene.values.set;
         all.extend((!scene.is_empty()).then(|| ("set", set(scene))));
         all.extend(self.robust.map(|own| ("robust", share(own))));
@@ -66,7 +70,9 @@ impl DesignArguments {
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
     let Some((_, best)) = answer.best() else { return Ok(()) };
-    files.add(SCENE, &answer.text)?;
+    for (at, text) in answer.texts.iter().enumerate() {
+        files.add(scene_file(at), text)?;
+    }
     files.add_with(DESIGNS, |out| {
         let (header, rows) = designs(answer, best);
         csv(out, header, rows)
@@ -119,7 +125,7 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
         network: sketch::figure(&answer.scene),
         figures,
         details: vec![Table::new("Settings", &[], asked.chain(origin::rows(&answer.scene)))],
-        scene_text: answer.text.clone(),
+        scene_text: answer.text().to_owned(),
     }
 }
 

@@ -7,6 +7,7 @@ mod figures;
 mod files;
 mod front;
 mod posing;
+mod scenes;
 mod tables;
 mod total;
 mod words;
@@ -14,24 +15,28 @@ mod words;
 use std::{num::NonZero, thread::available_parallelism};
 
 use clap::Args;
-use dashpot_analysis::{Judgement, RunReport, sweep::PoseAt};
+use dashpot_analysis::{
+    Judgement, RunReport,
+    sweep::{PoseAt, columns},
+};
 use dashpot_design::optimum::{
     Design, DesignError, Effort, Problem, Scattered, design as search, robust,
 };
-use dashpot_scene::read;
+use dashpot_scene::{Tunables, read};
 
 use self::{
     among::Choice,
     answer::{Answer, Found},
     asked::{Asked, Least},
     posing::Posing,
+    scenes::{Test, TestArgument, TestScene},
 };
 use super::run::{
     FloorTold,
     scatter::{self, ScatterArguments},
 };
 use crate::{
-    args::{LimitArguments, SceneArguments, Variant, method_names, probability, samples, variant},
+    args::{LimitArguments, SceneArguments, method_names, probability, samples},
     error::{CliError, Status},
     input::Input,
     operand::print_notes,
@@ -42,7 +47,7 @@ use crate::{
 };
 
 /// `[design]` of a scene.
-const SECTION: Verb = Verb { name: "design", files: &[] };
+const SECTION: Verb = Verb { name: "design", files: &[("test", scenes::file_at)] };
 
 /// `design`.
 #[derive(Debug, Args)]
@@ -53,6 +58,8 @@ const SECTION: Verb = Verb { name: "design", files: &[] };
     --least head.hic15\n  \
     dashpot design helmet.toml --vary \"T=10..50 mm\" --vary liner.material=eps,epp \\\n    \
     --least T --test \"flat: drop=1.5 m\" --test \"kerb: drop=1.1 m, head.mass=6 kg\"\n  \
+    dashpot design pad.toml --vary \"pad.thickness=10..60 mm\" --least pad.thickness \\\n    \
+    --test hot.toml --test \"cold: cold.toml, head.mass=6 kg\"\n  \
     dashpot design helmet.toml --vary \"T=10..50 mm\" --least T --and head.peak-acceleration --out front\n  \
     dashpot design stack.toml --vary \"front.thickness=2..28 mm\" --vary \"back.thickness=2..28 mm\" \\\n    \
     --total \"front.thickness+back.thickness=30 mm\" --vary \"front.material,back.material=soft,hard\" \\\n    \
@@ -90,9 +97,10 @@ pub(crate) struct DesignArguments {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["vary", "least"])]
     solve_for: Option<String>,
     /// A test in which all limits have to be kept: values of the scene as `--set` takes them, with a name of its own
-    /// "kerb: drop=1.1 m"; repeatable [default: the scene as it is].
-    #[arg(long, value_name = "[NAME:] KEY=VALUE,…", value_parser = variant)]
-    test: Vec<Variant>,
+    /// "kerb: drop=1.1 m", or another scene with its own limits and whatever is sought by the same names,
+    /// "cold: drop-cold.toml"; repeatable [default: the scene as it is].
+    #[arg(long, value_name = "[NAME:] KEY=VALUE,… or SCENE", value_parser = scenes::test)]
+    test: Vec<TestArgument>,
     /// Everything is kept with this probability, where numbers of the scene have scatter, such as "20 ± 2 MN/m".
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, conflicts_with = "and")]
     robust: Option<f64>,
@@ -161,14 +169,35 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     terminal.diagnose(&checked.warnings);
     let mut scene = checked.value;
     print_notes(&scene.notes);
-    let asked = Asked::of(arguments, &scene, &input)?;
+    let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+    let (tests, files) = scenes::tests(&arguments.test, &input)?;
+    let asked = Asked::of(arguments, tunables, tests)?;
     let further = arguments.limits.beside(&scene.limits)?;
     scene.add_limits(further.clone());
-    if scene.limits.is_empty() && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
+    let mut scenes = vec![TestScene::own(input, scene.clone(), &asked)];
+    for path in &files {
+        let own = TestScene::other(path, &asked, (set, &scenes), terminal)?;
+        arguments.limits.beside(&own.scene.limits)?;
+        scenes.push(own);
+    }
+    for own in &asked.tests {
+        scenes[own.scene].check_set(&[&set[..], &own.set].concat())?;
+    }
+    let mut of_tests = asked.tests.iter().map(|own| &scenes[own.scene].scene.limits);
+    let has_none = further.is_empty() && of_tests.all(Vec::is_empty);
+    if has_none && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
         let name = asked.least.name(&asked).to_owned();
         return Err(CliError::NothingToKeep { name });
     }
-    if arguments.robust.is_some() && scene.scatter.is_empty() {
+    let posing = Posing {
+        scenes: &scenes,
+        set,
+        asked: &asked,
+        limits: &further,
+        method: arguments.method.as_deref(),
+        sample: ScatterArguments::new(arguments.scatter, arguments.seed),
+    };
+    if arguments.robust.is_some() && !posing.has_scatter() {
         return Err(CliError::WrongSetting {
             name: "--robust".to_owned(),
             reason: "no number of the scene has scatter: write one with its standard deviation, such as \
@@ -176,16 +205,8 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
                 .to_owned(),
         });
     }
-    let (folder, file) = arguments.out.split(files::all_names(&asked))?;
-    let posing = Posing {
-        input: &input,
-        set,
-        asked: &asked,
-        limits: &further,
-        method: arguments.method.as_deref(),
-        scattered: &scene.scatter,
-        sample: ScatterArguments::new(arguments.scatter, arguments.seed),
-    };
+    check_measures(&posing)?;
+    let (folder, file) = arguments.out.split(files::all_names(&asked, scenes.len()))?;
     let mut found = list(asked.choices().into_iter().map(|choice| {
         let design = searched(arguments, &posing, &choice).map_err(|error| error.to_string());
         Found { choice, design }
@@ -206,7 +227,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         Some(FloorTold::of(&point.network, point.settings.duration, &point.settings.limits))
     };
     let floors = asked.tests.iter().filter_map(told).collect();
-    let text = posing.written(choice, &best.values);
+    let texts = list(scenes.iter().map(|own| posing.written(own, choice, &best.values)));
     let slices = match &folder {
         Some(_) => figures::slices(arguments, &posing, choice, best),
         None => Vec::new(),
@@ -214,12 +235,33 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     let is_kept = is_kept(best);
     let settings = arguments.in_words();
     let answer =
-        Answer { scene, asked: asked.clone(), found, front, floors, text, slices, settings };
+        Answer { scene, asked: asked.clone(), found, front, floors, texts, slices, settings };
     emit(&answer, arguments.json, folder, terminal)?;
     if let Some(file) = file {
-        file.write(&answer.text, |path| format!("wrote {}", path.display()))?;
+        file.write(answer.text(), |path| format!("wrote {}", path.display()))?;
     }
     Ok(if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done })
+}
+
+/// Whether the scene of each test has the measures that are made least.
+fn check_measures(posing: &Posing<'_>) -> Result<(), CliError> {
+    let asked = posing.asked;
+    let aims = [Some(&asked.least), asked.and.as_ref()].into_iter().flatten();
+    let keys = aims.filter_map(|own| match own {
+        Least::Measure(key) => Some(key.clone()),
+        Least::Number(_) | Least::Step(_) => None,
+    });
+    let keys: Vec<String> = list(keys);
+    let begin = asked.variables().into_iter().map(|own| own.start.clamp(own.low, own.high));
+    let begin: Vec<f64> = list(begin);
+    let first = vec![0; asked.among.len()];
+    for test in asked.tests.iter().filter(|_| !keys.is_empty()) {
+        // What cannot be posed is told where it is searched.
+        if let Ok(point) = posing.pose(&first, test)(&begin) {
+            columns(&point, &keys)?;
+        }
+    }
+    Ok(())
 }
 
 /// The best design with a choice of words and steps.
@@ -255,11 +297,11 @@ fn with_problem<T>(
 /// Adds to the run of a test what scatter makes of it, where the scene has some.
 fn scatter_of(
     posing: &Posing<'_>,
-    (choice, test): (&Choice, &Variant),
+    (choice, test): (&Choice, &Test),
     values: &[f64],
     (run, terminal): (&mut RunReport, Terminal),
 ) -> Result<(), CliError> {
-    if posing.scattered.is_empty() {
+    if posing.scene(test).scene.scatter.is_empty() {
         return Ok(());
     }
     let Some(drawn) = posing.drawn(choice, test, values)? else { return Ok(()) };

@@ -4,13 +4,15 @@ use dashpot_analysis::{
     Limit,
     sweep::{PoseAt, ScenePoint},
 };
-use dashpot_scene::{Sample, ScatteredNumber, Scene, read};
+use dashpot_scene::{Sample, Scene, read};
 
-use super::{among::Choice, asked::Asked};
+use super::{
+    among::Choice,
+    asked::Asked,
+    scenes::{Test, TestScene},
+};
 use crate::{
-    args::Variant,
     error::CliError,
-    input::Input,
     output::list,
     varied::{Varied, messages, point, posed},
     verbs::run::scatter::{self, ScatterArguments},
@@ -18,12 +20,12 @@ use crate::{
 
 /// What poses the scene.
 pub(super) struct Posing<'a> {
-    pub(super) input: &'a Input,
+    /// The scenes of the tests.
+    pub(super) scenes: &'a [TestScene],
     pub(super) set: &'a [(String, String)],
     pub(super) asked: &'a Asked,
     pub(super) limits: &'a [Limit],
     pub(super) method: Option<&'a str>,
-    pub(super) scattered: &'a [ScatteredNumber],
     pub(super) sample: ScatterArguments,
 }
 
@@ -36,51 +38,34 @@ pub(super) struct Drawn {
 }
 
 impl Posing<'_> {
-    /// The text of the scene with a choice and these numbers in SI units, to the bit.
-    fn text(&self, choice: &Choice, values: &[f64]) -> String {
-        self.text_with(choice, values, &Varied::exact)
+    /// The text of a scene with a choice and these numbers in SI units, to the bit.
+    fn text(&self, scene: &TestScene, choice: &Choice, values: &[f64]) -> String {
+        let numbers = self.asked.numbers.iter().zip(values);
+        let numbers = numbers.map(|(own, value)| own.exact(*value));
+        scene.text(list(numbers), self.asked, choice)
     }
 
     /// The same for people, with the scatter that a number has.
-    pub(super) fn written(&self, choice: &Choice, values: &[f64]) -> String {
-        self.text_with(choice, values, &|own, value| {
-            self.with_scatter(own, value).unwrap_or_else(|| own.written(value))
-        })
+    pub(super) fn written(&self, scene: &TestScene, choice: &Choice, values: &[f64]) -> String {
+        let numbers = self.asked.numbers.iter().zip(values).enumerate();
+        let numbers = numbers.map(|(at, (own, value))| {
+            let place = scene.place(at);
+            let scattered = place.and_then(|at| with_scatter(scene, (own, at), *value));
+            scattered.unwrap_or_else(|| own.written(*value))
+        });
+        scene.text(list(numbers), self.asked, choice)
     }
 
-    fn text_with(
-        &self,
-        choice: &Choice,
-        values: &[f64],
-        written: &dyn Fn(&Varied, f64) -> String,
-    ) -> String {
-        let numbers = self.asked.numbers.iter().zip(values);
-        let numbers = numbers.filter_map(|(own, value)| Some((own.at?, written(own, *value))));
-        let chosen = self.asked.among.iter().zip(choice).flat_map(|(own, at)| own.written(*at));
-        self.asked.tunables.text_with(&list(numbers.chain(chosen)))
+    pub(super) fn scene(&self, test: &Test) -> &TestScene {
+        &self.scenes[test.scene]
     }
 
-    /// A number with the scatter that it has in the scene: the same part of it where that is in percent, else as much.
-    fn with_scatter(&self, own: &Varied, value: f64) -> Option<String> {
-        let at = own.at?;
-        let tunables = &self.asked.tunables;
-        let path = &tunables.all()[at].path;
-        let scatter = self.scattered.iter().find(|own| own.path == *path)?;
-        let is_part = tunables.shown(at).trim_end().ends_with('%') && own.unit != "%";
-        let part = if is_part { value / scatter.mean } else { 1.0 };
-        let [mean, deviation] = [value, scatter.deviation * part].map(|of| own.written(of));
-        Some(if own.unit == "%" {
-            format!(
-                "({} ± {}) %",
-                mean.trim_end_matches([' ', '%']),
-                deviation.trim_end_matches([' ', '%'])
-            )
-        } else {
-            format!("{mean} ± {deviation}")
-        })
+    /// Whether any number of any test has scatter.
+    pub(super) fn has_scatter(&self) -> bool {
+        self.asked.tests.iter().any(|own| !self.scene(own).scene.scatter.is_empty())
     }
 
-    fn set_for(&self, test: &Variant) -> Vec<(String, String)> {
+    fn set_for(&self, test: &Test) -> Vec<(String, String)> {
         [self.set, &test.set].concat()
     }
 
@@ -90,11 +75,16 @@ impl Posing<'_> {
     }
 
     /// The scene of a test with a choice, for any numbers.
-    pub(super) fn pose<'s>(&'s self, choice: &'s Choice, test: &'s Variant) -> Box<PoseAt<'s>> {
-        let set = self.set_for(test);
+    pub(super) fn pose<'s>(&'s self, choice: &'s Choice, test: &'s Test) -> Box<PoseAt<'s>> {
+        let (set, scene) = (self.set_for(test), self.scene(test));
         Box::new(move |values: &[f64]| {
-            let posed = posed(&self.text(choice, values), self.input, &set)?;
-            Ok(self.asked_of(point(posed, self.method)?))
+            let posed = posed(&self.text(scene, choice, values), &scene.input, &set);
+            let point = posed.and_then(|own| point(own, self.method));
+            let of_test = |fault| match &*test.name {
+                "" => fault,
+                name => format!("in the test `{name}`: {fault}"),
+            };
+            Ok(self.asked_of(point.map_err(of_test)?))
         })
     }
 
@@ -102,14 +92,18 @@ impl Posing<'_> {
     pub(super) fn drawn(
         &self,
         choice: &Choice,
-        test: &Variant,
+        test: &Test,
         values: &[f64],
     ) -> Result<Option<Drawn>, CliError> {
-        let set = self.set_for(test);
-        let text = self.written(choice, values);
-        let scene = read(&text, &self.input.options(&set)).map_err(CliError::Scene)?.value;
+        let (set, own) = (self.set_for(test), self.scene(test));
+        let text = self.written(own, choice, values);
+        let scene = read(&text, &own.input.options(&set)).map_err(CliError::Scene)?.value;
         let plain = scatter::plainly_set(&scene, &set);
-        let sample = scatter::drawn(&scene, self.sample, &plain)?;
+        // One design has its numbers in all scenes.
+        let first = self.asked.tests.first().filter(|own| own.scene != test.scene);
+        let first = first.map(|first| self.drawn(choice, first, values)).transpose()?.flatten();
+        let sample =
+            scatter::drawn(&scene, self.sample, &plain, first.as_ref().map(|own| &own.sample))?;
         Ok(sample.map(|sample| Drawn { scene, sample, plain }))
     }
 
@@ -117,7 +111,7 @@ impl Posing<'_> {
     pub(super) fn scattered(
         &self,
         choice: &Choice,
-        test: &Variant,
+        test: &Test,
         values: &[f64],
     ) -> Result<Vec<ScenePoint>, String> {
         let own = self.pose(choice, test)(values)?;
@@ -131,4 +125,20 @@ impl Posing<'_> {
         let one = |at: usize| scatter::design(&scene, &sample, at, (&own.settings, &plain));
         (0..sample.len()).map(one).collect()
     }
+}
+
+/// A number with the scatter that it has in a scene: the same part of it where that is in percent, else as much.
+fn with_scatter(scene: &TestScene, (own, at): (&Varied, usize), value: f64) -> Option<String> {
+    let tunables = &scene.tunables;
+    let path = &tunables.all()[at].path;
+    let scatter = scene.scene.scatter.iter().find(|own| own.path == *path && !own.is_together)?;
+    let is_part = tunables.shown(at).trim_end().ends_with('%') && own.unit != "%";
+    let part = if is_part { value / scatter.mean } else { 1.0 };
+    let [mean, deviation] = [value, scatter.deviation * part].map(|of| own.written(of));
+    Some(if own.unit == "%" {
+        let [mean, deviation] = [&mean, &deviation].map(|own| own.trim_end_matches([' ', '%']));
+        format!("({mean} ± {deviation}) %")
+    } else {
+        format!("{mean} ± {deviation}")
+    })
 }

@@ -6,7 +6,7 @@ use dashpot_plot::Table;
 use super::{
     answer::{Answer, Found},
     asked::{Asked, Least},
-    words::{DIGITS, active, aim_text},
+    words::{DIGITS, active, aim_text, of_test},
 };
 use crate::{
     numbers::{percent_signed, significant},
@@ -38,10 +38,13 @@ fn sensitivities(asked: &Asked, best: &Design) -> Table {
     let shown: Vec<usize> = (0..best.kept.len())
         .filter(|at| {
             let own = &best.kept[*at];
-            own.required.test == 0 && !(is_measure && name(own) == asked.least.name(asked))
+            best.decides(own) && !(is_measure && name(own) == asked.least.name(asked))
         })
         .collect();
-    header.extend(shown.iter().map(|at| name(&best.kept[*at])));
+    header.extend(shown.iter().map(|at| {
+        let own = &best.kept[*at];
+        of_test(asked, own, name(own))
+    }));
     let cell = |slope: f64, value: f64, of: f64| {
         let part = slope * value / of;
         if part.is_finite() { format!("{} %", signed(part)) } else { "–".to_owned() }

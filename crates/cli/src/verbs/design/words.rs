@@ -50,27 +50,30 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
     }
     if let Least::Measure(key) = &asked.least {
         let text = aim_text(asked, &asked.least, (best, best.aim), DIGITS);
-        add("least", format!("{key} {text}"));
+        let of_test = answer.test_of_aim(best).map_or(String::new(), |own| format!(", in {own}"));
+        add("least", format!("{key} {text}{of_test}"));
     }
     if let Some(borne) = &best.borne {
         add("robust", borne_text(borne));
     }
     let named =
         |test: usize| answer.test_name(test).map_or(String::new(), |name| format!("{name}: "));
-    let of_test = |test: usize, all: Vec<Line>| {
+    let in_test = |test: usize, all: Vec<Line>| {
         let named = named(test);
         all.into_iter().map(move |line| Line { text: named.clone() + &line.text, ..line })
     };
     for (at, run) in best.runs.iter().enumerate() {
-        lines.extend(of_test(at, limit_lines(run)));
+        lines.extend(in_test(at, limit_lines(run)));
     }
+    let decided = decided_by(answer, best);
+    lines.extend((!decided.is_empty()).then_some(Line { label: "decided by", text: decided }));
     let held_by = best.kept.iter().filter(|own| own.is_active && best.is_feasible);
     lines.extend(held_by.map(|own| Line { label: "active", text: held(answer, best, own) }));
     for (at, run) in best.runs.iter().enumerate() {
-        lines.extend(of_test(at, scatter::lines(run)));
+        lines.extend(in_test(at, scatter::lines(run)));
     }
     for (at, (run, floor)) in best.runs.iter().zip(&answer.floors).enumerate() {
-        lines.extend(of_test(at, floor.lines(run)));
+        lines.extend(in_test(at, floor.lines(run)));
     }
     if !answer.front.is_empty() {
         lines.push(Line { label: "front", text: front(answer) });
@@ -153,6 +156,16 @@ pub(super) fn aim_text(
     }
 }
 
+/// Which test leaves the least to each requirement: `cold: head.peak-acceleration; hot: what is known of pad`.
+fn decided_by(answer: &Answer, best: &Design) -> String {
+    if answer.asked.tests.len() < 2 {
+        return String::new();
+    }
+    let is_of_front = |own: &Kept| matches!(own.required.what, Requirement::Ceiling(..));
+    let each = best.kept.iter().filter(|own| !is_of_front(own) && best.decides(own));
+    list(each.map(|own| what(&answer.asked, own))).join("; ")
+}
+
 /// What is required: `head.peak-acceleration`, `what is known of pad`, with its test where there are several.
 pub(super) fn what(asked: &Asked, own: &Kept) -> String {
     let what = match &own.required.what {
@@ -160,6 +173,11 @@ pub(super) fn what(asked: &Asked, own: &Kept) -> String {
         Requirement::Known(name) => format!("what is known of {name}"),
         Requirement::Ceiling(..) => asked.and.as_ref().map_or("", |own| own.name(asked)).to_owned(),
     };
+    of_test(asked, own, what)
+}
+
+/// Something of a requirement, with its test where there are several.
+pub(super) fn of_test(asked: &Asked, own: &Kept, what: String) -> String {
     match &asked.tests[..] {
         [_] => what,
         tests => format!("{}: {what}", tests[own.required.test].name),

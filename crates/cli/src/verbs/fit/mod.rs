@@ -6,6 +6,7 @@ mod asked;
 mod figures;
 mod files;
 mod pressed;
+mod scattered;
 mod scene;
 mod scene_object;
 mod scene_words;
@@ -42,7 +43,7 @@ use crate::{
 };
 
 /// `[fit]` of a scene; what is fitted to are files beside it.
-const SECTION: Verb = Verb { name: "fit", files: &["to"] };
+const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
 
 /// `fit`.
 #[derive(Debug, Args)]
@@ -107,6 +108,10 @@ pub(crate) struct FitArguments {
     /// Intervals of the profile likelihood for all numbers; else where the covariance falls short.
     #[arg(long)]
     profile: bool,
+    /// Writes what is not known of the numbers, and what is known of them together, into the fitted scene as `[scatter]`:
+    /// runs and designs then draw from it.
+    #[arg(long)]
+    scatter: bool,
     /// Whether rows that are far off count by their magnitude, in place of its square.
     #[arg(long, value_name = "WHEN", default_value = "on")]
     robust: Switch,
@@ -140,6 +145,7 @@ impl FitArguments {
             ("--cfc", self.cfc.is_some()),
             ("--noise", self.noise.is_some()),
             ("--profile", self.profile),
+            ("--scatter", self.scatter),
         ];
         match of_numbers.iter().find(|own| own.1 && !self.fits_numbers()) {
             Some((name, _)) => wrong(

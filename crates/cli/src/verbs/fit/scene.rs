@@ -53,11 +53,13 @@ pub(super) struct FittedScene {
     /// Among which forms of a model this one was chosen.
     pub(super) among: Option<Among>,
     replaced: Option<Replaced>,
+    /// Whether the scene that is written has the scatter of the fit.
+    pub(super) has_scatter: bool,
     /// The network with what was found, where it can be solved.
     pub(super) fitted: Option<Posed>,
     /// What the command line asks for, in words.
     pub(super) asked: Vec<(&'static str, String)>,
-    tunables: Tunables,
+    pub(super) tunables: Tunables,
 }
 
 /// What is fitted to what.
@@ -98,6 +100,10 @@ impl<'p> Plan<'p> {
         terminal.diagnose(&checked.warnings);
         let scene = checked.value;
         print_notes(&scene.notes);
+        if arguments.scatter && scene.scatter.iter().any(|own| own.is_together) {
+            let reason = "the scene has a section `[scatter]` already: leave that out".to_owned();
+            return Err(CliError::WrongSetting { name: "--scatter".to_owned(), reason });
+        }
         let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
         let numbers = numbers(arguments, &tunables)?;
         let mut curves: Vec<(Asked, Target)> = Vec::new();
@@ -207,6 +213,7 @@ impl<'p> Plan<'p> {
         let found: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
         let fitted = whole.posed(&found).ok();
         let asked = self.arguments.in_words();
+        let has_scatter = self.arguments.scatter;
         drop(posers);
         let Self { scene, tunables, curves, known, tests, .. } = self;
         Ok(FittedScene {
@@ -220,6 +227,7 @@ impl<'p> Plan<'p> {
             fit,
             among,
             replaced,
+            has_scatter,
             fitted,
             asked,
             tunables,
@@ -414,6 +422,7 @@ impl FittedScene {
         let replaced = self.replaced.as_ref().map(|own| own.text(&text, &constants, comment));
         let text = replaced.and_then(Result::ok).unwrap_or(text);
         let lines: Vec<String> = list(comments.iter().map(|own| format!("# {own}\n")));
-        lines.concat() + &text
+        let scatter = self.has_scatter.then(|| self.scatter().ok()).flatten();
+        lines.concat() + &text + &scatter.unwrap_or_default()
     }
 }

@@ -145,6 +145,9 @@ impl FittedScene {
         } else if !fit.is_converged {
             all.push("the search has not converged: these numbers are not a minimum".to_owned());
         }
+        if let Some(why) = self.scatter().err().filter(|_| self.has_scatter) {
+            all.push(format!("no scatter is written: {why}"));
+        }
         for (at, own) in
             self.numbers.iter().enumerate().filter(|own| fit.numbers[own.0].is_on_bound)
         {

@@ -355,7 +355,7 @@ fn solve_all(
     }
     let assembly = Arc::new(scene.assembly.clone());
     let plain = scatter::plainly_set(&scene, set);
-    let sample = scatter::drawn(&scene, arguments.scatter, &plain)?;
+    let sample = scatter::drawn(&scene, arguments.scatter, &plain, None)?;
     let measured = arguments.measured.read(&scene)?;
     let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
     for own in &asked {

@@ -60,11 +60,13 @@ impl ScatterArguments {
     }
 }
 
-/// The designs that are drawn from the scatter of a scene, `None` where it has none.
+/// The designs that are drawn from the scatter of a scene, `None` where it has none. Numbers that the sample of another
+/// scene has as well are drawn as there.
 pub(crate) fn drawn(
     scene: &Scene,
     arguments: ScatterArguments,
     plain: &[(String, String)],
+    beside: Option<&Sample>,
 ) -> Result<Option<Sample>, CliError> {
     if scene.scatter.is_empty() {
         return Ok(None);
@@ -75,7 +77,8 @@ pub(crate) fn drawn(
         Ok(_) => Change::Some,
         Err(_) => Change::Refused,
     };
-    Sample::of(&scene.text, arguments.sample, arguments.seed, &change).map_err(CliError::Scene)
+    let ScatterArguments { sample, seed } = arguments;
+    Sample::of(&scene.text, sample, seed, &change, beside).map_err(CliError::Scene)
 }
 
 /// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands
@@ -146,6 +149,7 @@ fn source(drawn: &Drawn) -> ScatterSource {
         cut_below: drawn.cut[0],
         cut_above: drawn.cut[1],
         beyond: drawn.beyond,
+        is_together: number.is_together,
     }
 }
 
@@ -162,12 +166,9 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
     let all = own.all_limits.as_ref().map_or_else(String::new, |own| {
         format!("; probability to keep all limits {}", probability(own))
     });
-    let numbers: Vec<String> =
-        own.sources.iter().map(|of| format!("{} = {}", of.name, of.text)).collect();
     let first = format!(
-        "{}, each normal with the standard deviation behind ±; {} designs (Latin hypercube, seed {}), {how}, \
-         without error bars of their own{all}",
-        numbers.join(", "),
+        "{}; {} designs (Latin hypercube, seed {}), {how}, without error bars of their own{all}",
+        sources(own),
         own.designs,
         own.seed
     );
@@ -176,6 +177,23 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
     });
     let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text)).chain(unsolved);
     texts.map(|text| Line { label: "scatter", text }).collect()
+}
+
+/// The numbers that were drawn, those by themselves and those together.
+fn sources(own: &ScatterReport) -> String {
+    let named = |is_together: bool| {
+        let all = own.sources.iter().filter(|own| own.is_together == is_together);
+        all.map(|of| format!("{} = {}", of.name, of.text)).collect::<Vec<_>>().join(", ")
+    };
+    let told = [
+        (named(false), "each normal with the standard deviation behind ±"),
+        (
+            named(true),
+            "together as `[scatter]` says, each lognormal with the standard deviation behind ±",
+        ),
+    ];
+    let told = told.into_iter().filter(|own| !own.0.is_empty());
+    told.map(|(names, how)| format!("{names}, {how}")).collect::<Vec<_>>().join("; ")
 }
 
 /// Where the distribution of a number is cut off.

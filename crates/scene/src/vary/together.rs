@@ -1,0 +1,124 @@
+//! Numbers that scatter together, such as those of one fit: `[scatter]`.
+
+use std::sync::Arc;
+
+use super::tunable::Tunables;
+use crate::{
+    diagnostics::{Faults, fault::Fault},
+    text::{
+        document::{Content, Entry, Item, parse},
+        source::{Place, Source},
+        table::{entries_of, unknown_key, wrong_type},
+    },
+    units::parse_quantity,
+};
+
+/// The section, and its only key.
+pub(crate) const SECTION: &str = "scatter";
+pub(crate) const KEY: &str = "together";
+const HELP: &str = "write `together = [{ \"foam.modulus\" = \"4 %\", \"foam.plateau\" = \"-2 %\" }]`: what one standard \
+                    deviation of each cause adds to each number";
+/// Shares beyond this are no scatter any more.
+const MOST: f64 = 1.0;
+
+/// One of the independent things that numbers scatter by.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cause {
+    /// Numbers by their positions, and what one standard deviation of the cause adds to the logarithm of each.
+    pub(crate) shares: Vec<(usize, f64)>,
+}
+
+/// Whether a text may have the section.
+pub(crate) fn is_possible(text: &str) -> bool {
+    text.contains(SECTION)
+}
+
+/// The causes of a text that is known to be without faults.
+pub(crate) fn causes(text: &str, tunables: &Tunables) -> Vec<Cause> {
+    if !is_possible(text) {
+        return Vec::new();
+    }
+    read(&Arc::new(Source::new("scene", text)), tunables, &Faults::default())
+}
+
+/// Notes what is wrong with the section.
+pub(crate) fn check(source: &Arc<Source>, faults: &Faults) {
+    if !is_possible(&source.text) {
+        return;
+    }
+    if let Ok(tunables) = Tunables::of(&source.text, None) {
+        read(source, &tunables, faults);
+    }
+}
+
+fn read(source: &Arc<Source>, tunables: &Tunables, faults: &Faults) -> Vec<Cause> {
+    let Some(root) = parse(source, faults) else { return Vec::new() };
+    let section = root.table().unwrap_or(&[]).iter().find(|own| own.key == SECTION);
+    let Some(entries) = section.and_then(|own| entries_of(&own.item, "`[scatter]`", faults)) else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    for entry in entries {
+        match &entry.item.value {
+            Content::List(causes) if entry.key == KEY => {
+                all.extend(causes.iter().filter_map(|own| cause(own, tunables, faults)));
+            }
+            _ if entry.key == KEY => {
+                wrong_type(&entry.item, "`together`", "a list of tables", faults);
+            }
+            _ => faults.error(entry.key_place, unknown_key(entry, "`[scatter]`", vec![KEY])),
+        }
+    }
+    all
+}
+
+fn cause(item: &Item, tunables: &Tunables, faults: &Faults) -> Option<Cause> {
+    let mut shares = Vec::new();
+    let entries = entries_of(item, "what scatters together", faults)?;
+    collect(entries, "", &mut |name, item, place| match number(name, item, tunables) {
+        Ok((at, _)) if shares.iter().any(|own: &(usize, f64)| own.0 == at) => {
+            faults.error(place, Fault::odd(format!("`{name}` stands here twice"), HELP));
+        }
+        Ok(own) => shares.push(own),
+        Err((message, help)) => faults.error(place, Fault::odd(message, help)),
+    });
+    Some(Cause { shares })
+}
+
+/// Names with points may be written without quotes: then they are tables within tables.
+fn collect(entries: &[Entry], before: &str, found: &mut dyn FnMut(&str, &Item, Place)) {
+    for entry in entries {
+        let name = format!("{before}{}", entry.key);
+        match entry.item.table() {
+            Some(inner) => collect(inner, &format!("{name}."), found),
+            None => found(&name, &entry.item, entry.key_place),
+        }
+    }
+}
+
+/// The number of this name and its share, or what is wrong and what to do.
+fn number(name: &str, item: &Item, tunables: &Tunables) -> Result<(usize, f64), (String, String)> {
+    let at = tunables.find(name);
+    let at =
+        at.map_err(|fault| (fault.to_string(), fault.help().unwrap_or_else(|| HELP.to_owned())))?;
+    let own = &tunables.all()[at];
+    if own.scatter.is_some() {
+        let help = "leave the scatter behind `±` out, or the number here".to_owned();
+        return Err((format!("`{name}` has scatter of its own"), help));
+    }
+    if own.value == 0.0 || !own.value.is_finite() || own.unit.ends_with("°C") {
+        let help = "what scatters together is a part of each number: give it its own scatter, \"20 ± 2 °C\"";
+        return Err((format!("`{name}` has no parts"), help.to_owned()));
+    }
+    let share = match &item.value {
+        Content::Text(own) | Content::Number(own) => parse_quantity(own).ok(),
+        _ => None,
+    };
+    let share = share.filter(|own| own.dimension.is_none()).map(|own| own.value);
+    match share.filter(|own| own.is_finite() && own.abs() <= MOST) {
+        Some(share) => Ok((at, share)),
+        None => {
+            Err((format!("`{name}` wants a part of itself, from −100 to 100 %"), HELP.to_owned()))
+        }
+    }
+}
