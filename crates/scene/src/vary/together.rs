@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use dashpot_network::parameters::Dimension;
+
 use super::tunable::Tunables;
 use crate::{
     diagnostics::{Faults, fault::Fault},
@@ -10,7 +12,7 @@ use crate::{
         source::{Place, Source},
         table::{entries_of, unknown_key, wrong_type},
     },
-    units::parse_quantity,
+    units::{Quantity, parse_quantity},
 };
 
 /// The section, and its only key.
@@ -114,7 +116,8 @@ fn number(name: &str, item: &Item, tunables: &Tunables) -> Result<(usize, f64), 
         Content::Text(own) | Content::Number(own) => parse_quantity(own).ok(),
         _ => None,
     };
-    let share = share.filter(|own| own.dimension.is_none()).map(|own| own.value);
+    let is_part = |own: &Quantity| own.dimension.is_none_or(|own| own == Dimension::NUMBER);
+    let share = share.filter(is_part).map(|own| own.value);
     match share.filter(|own| own.is_finite() && own.abs() <= MOST) {
         Some(share) => Ok((at, share)),
         None => {
