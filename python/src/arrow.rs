@@ -1,4 +1,4 @@
-//! Columns as an Arrow stream, which pandas, polars and DuckDB read without copies.
+//! Columns as an Arrow stream, which pandas, polars and `DuckDB` read without copies.
 
 use std::sync::Arc;
 

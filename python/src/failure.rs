@@ -57,7 +57,7 @@ pub(crate) fn sentence(py: Python<'_>, kind: Kind, message: &str) -> PyErr {
     failure(py, kind, &[said])
 }
 
-/// An array of NumPy with these values.
+/// An array of `NumPy` with these values.
 pub(crate) fn array<'py>(py: Python<'py>, values: &[f64]) -> PyResult<Bound<'py, PyAny>> {
     let bytes: Vec<u8> = values.iter().flat_map(|own| own.to_ne_bytes()).collect();
     let numpy = py.import("numpy")?;

@@ -26,7 +26,7 @@ pub(crate) fn opened(py: Python<'_>, path: PathBuf) -> PyResult<(String, String)
 /// A scene that was read and is valid.
 #[pyclass(frozen, module = "dashpot._dashpot")]
 pub(crate) struct Scene {
-    scene: dashpot_scene::Scene,
+    read: dashpot_scene::Scene,
     assembly: Arc<Assembly>,
     /// What is odd about its text.
     said: Vec<Said>,
@@ -46,31 +46,31 @@ impl Scene {
         let read = py.detach(|| read_scene(text, file, &values));
         let (scene, said) = read.map_err(|said| failure(py, Kind::Input, &said))?;
         let assembly = Arc::new(scene.assembly.clone());
-        Ok(Self { scene, assembly, said, tunables: OnceLock::new() })
+        Ok(Self { read: scene, assembly, said, tunables: OnceLock::new() })
     }
 
     /// Its title.
     #[getter]
     fn title(&self) -> Option<&str> {
-        self.scene.title.as_deref()
+        self.read.title.as_deref()
     }
 
     /// Its text, with all values as they were set.
     #[getter]
     fn text(&self) -> &str {
-        &self.scene.text
+        &self.read.text
     }
 
     /// How long it runs \[s\].
     #[getter]
     fn duration(&self) -> f64 {
-        self.scene.run.duration
+        self.read.run.duration
     }
 
     /// The methods that it names.
     #[getter]
     fn methods(&self) -> Vec<String> {
-        self.scene.run.methods.iter().map(ToString::to_string).collect()
+        self.read.run.methods.iter().map(ToString::to_string).collect()
     }
 
     /// What is odd about its text, as dictionaries.
@@ -82,12 +82,12 @@ impl Scene {
     /// Other files that it reads.
     #[getter]
     fn files(&self) -> Vec<String> {
-        self.scene.files.clone()
+        self.read.files.clone()
     }
 
     /// The drawing of its network as SVG; empty where there is too much to be drawn.
     fn drawing(&self) -> String {
-        dashpot_cli::drawing(&self.scene).unwrap_or_default()
+        dashpot_cli::drawing(&self.read).unwrap_or_default()
     }
 
     /// Its numbers: name, value and unit in SI, and as it is written.
@@ -126,12 +126,12 @@ impl Scene {
     ) -> PyResult<Report> {
         let without_errors = !estimate;
         let options = RunOptions { accuracy, neglect, rtol, without_errors, budget, measures };
-        let settings = options.settings(&self.scene, method);
+        let settings = options.settings(&self.read, method);
         let settings = settings.map_err(|error| sentence(py, Kind::Input, &error.to_string()))?;
         let (watcher, raised) = Watcher::new(progress);
         let solved = py.detach(|| {
             let mut observer = OfRun(watcher, settings.duration);
-            solve_partial(&self.scene.network, &self.assembly, &settings, &mut observer)
+            solve_partial(&self.read.network, &self.assembly, &settings, &mut observer)
         });
         if let Some(error) = raised.take() {
             return Err(error);
@@ -146,7 +146,7 @@ impl Scene {
         if let Some(known) = self.tunables.get() {
             return Ok(known);
         }
-        let found = Tunables::of(&self.scene.text, self.scene.file.as_deref());
+        let found = Tunables::of(&self.read.text, self.read.file.as_deref());
         let found = found.map_err(|all| sentence(py, Kind::Input, &all.render(false)))?;
         Ok(self.tunables.get_or_init(|| found))
     }

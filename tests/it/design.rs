@@ -1,5 +1,7 @@
 //! Designs: closed forms from any start, every gallery scene that has a limit, and what the command says.
 
+use std::fmt::Write as _;
+
 use dashpot::{
     analysis::{
         Bound, Limit, SolveSettings,
@@ -372,7 +374,7 @@ fn the_best_of_three_layers_is_that_of_all_orders_and_thicknesses() {
     let mut rows = OF_LAYERS.map(|own| format!("{own}.thickness [mm]")).join(",") + "\n";
     for front in (4..WHOLE).step_by(STEP) {
         for middle in (4..WHOLE - front - 3).step_by(STEP) {
-            rows += &format!("{front},{middle},{}\n", WHOLE - front - middle);
+            writeln!(rows, "{front},{middle},{}", WHOLE - front - middle).unwrap();
         }
     }
     let grid = file(&folder, "grid.csv", &rows);

@@ -183,12 +183,6 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     for own in &asked.tests {
         scenes[own.scene].check_set(&[&set[..], &own.set].concat())?;
     }
-    let mut of_tests = asked.tests.iter().map(|own| &scenes[own.scene].scene.limits);
-    let has_none = further.is_empty() && of_tests.all(Vec::is_empty);
-    if has_none && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
-        let name = asked.least.name(&asked).to_owned();
-        return Err(CliError::NothingToKeep { name });
-    }
     let posing = Posing {
         scenes: &scenes,
         set,
@@ -197,14 +191,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         method: arguments.method.as_deref(),
         sample: ScatterArguments::new(arguments.scatter, arguments.seed),
     };
-    if arguments.robust.is_some() && !posing.has_scatter() {
-        return Err(CliError::WrongSetting {
-            name: "--robust".to_owned(),
-            reason: "no number of the scene has scatter: write one with its standard deviation, such as \
-                     \"20 ± 2 MN/m\""
-                .to_owned(),
-        });
-    }
+    check_posed(arguments, &posing)?;
     check_measures(&posing)?;
     let (folder, file) = arguments.out.split(files::all_names(&asked, scenes.len()))?;
     let mut found = list(asked.choices().into_iter().map(|choice| {
@@ -241,6 +228,25 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         file.write(answer.text(), |path| format!("wrote {}", path.display()))?;
     }
     Ok(if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done })
+}
+
+/// Whether there is something to keep, and scatter where it is asked for.
+fn check_posed(arguments: &DesignArguments, posing: &Posing<'_>) -> Result<(), CliError> {
+    let asked = posing.asked;
+    let mut of_tests = asked.tests.iter().map(|own| &posing.scenes[own.scene].scene.limits);
+    let has_none = posing.limits.is_empty() && of_tests.all(Vec::is_empty);
+    if has_none && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
+        return Err(CliError::NothingToKeep { name: asked.least.name(asked).to_owned() });
+    }
+    if arguments.robust.is_some() && !posing.has_scatter() {
+        return Err(CliError::WrongSetting {
+            name: "--robust".to_owned(),
+            reason: "no number of the scene has scatter: write one with its standard deviation, such as \
+                     \"20 ± 2 MN/m\""
+                .to_owned(),
+        });
+    }
+    Ok(())
 }
 
 /// Whether the scene of each test has the measures that are made least.
