@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+_HERE = os.path.dirname(__file__)
 
 
 class DashpotError(Exception):
@@ -39,6 +45,14 @@ class DashpotWarning(UserWarning):
     def __init__(self, text: str, code: str | None = None) -> None:
         super().__init__(text)
         self.code = code
+
+
+def warn(text: str, code: str | None) -> None:
+    """Warns at the line outside of the package that led to it."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _HERE:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(DashpotWarning(text, code), stacklevel=level - 1)
 
 
 def _text(fault: dict[str, Any]) -> str:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _dashpot
-from ._errors import DashpotWarning
+from ._errors import DashpotWarning, warn
 from ._toml import to_toml
 
 Progress = Callable[[float], object]
@@ -38,8 +38,11 @@ class Scene:
         values: Mapping[str, Any] | None = None,
         *,
         text: str | None = None,
+        _file: str | None = None,
     ) -> None:
-        file: str | None = None
+        if source is not None and text is not None:
+            raise TypeError("a scene is of a source or of a text")
+        file = _file
         if isinstance(source, Scene):
             text, file = source._base, source.file
             values = {**source._values, **(values or {})}
@@ -55,7 +58,7 @@ class Scene:
         self._set = [(name, _written(plain, name, value)) for name, value in self._values.items()]
         self._own = _dashpot.Scene(text, file, self._set)
         for own in self._own.said:
-            warnings.warn(DashpotWarning(own["message"], "scene"), stacklevel=2)
+            warn(own["message"], "scene")
 
     def _has_numbers(self) -> bool:
         return any(not isinstance(own, str) for own in self._values.values())
@@ -137,7 +140,7 @@ class Report(Mapping[str, Any]):
         self.scene = scene
         self._own = own
         for code, text in own.warnings:
-            warnings.warn(DashpotWarning(text, code), stacklevel=4)
+            warn(text, code)
 
     def __getitem__(self, key: str) -> Any:
         return self._own.measure(key)
@@ -239,8 +242,7 @@ def _unpickled(text: str, file: str | None, values: dict[str, Any]) -> Scene:
     scene = Scene.__new__(Scene)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DashpotWarning)
-        Scene.__init__(scene, None, values, text=text)
-    scene.file = file
+        Scene.__init__(scene, None, values, text=text, _file=file)
     return scene
 
 

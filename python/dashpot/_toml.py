@@ -19,7 +19,7 @@ def to_toml(scene: Mapping[str, Any]) -> str:
         if _is_table(own):
             lines += ["", f"[{_key(key)}]"]
             lines += [f"{_key(inner)} = {_value(value)}" for inner, value in own.items()]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).lstrip("\n") + "\n"
 
 
 def _is_table(value: Any) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import pathlib
@@ -13,8 +14,12 @@ from typing import Any
 import numpy as np
 
 from . import _dashpot
-from ._errors import DashpotWarning, RunError, SceneError
+from ._errors import DashpotWarning, RunError, SceneError, warn
 from ._scene import Progress, Report, Scene
+
+
+# Options that are on or off, in words.
+_ON_OR_OFF = {"--shift", "--offset", "--estimate"}
 
 
 class Result(dict[str, Any]):
@@ -38,7 +43,7 @@ class Result(dict[str, Any]):
 def call(
     verb: str, *operands: Any, progress: Progress | None = None, **options: Any
 ) -> Result:
-    """Calls a verb of the command: ``call("compare", "a.toml:pad", "b.toml:pad", within="1%")``.
+    """Calls a verb of the command: ``call("vibrate", "a.toml", method="bdf")``.
 
     Args:
         operands: paths and words; a `Scene` stands for its text.
@@ -63,35 +68,39 @@ def _called(
         arguments += _option("--" + name.replace("_", "-"), value, scene)
     status, output, said = _dashpot.call(arguments, texts, progress)
     errors = [own for own in said if own["tone"] == "error"]
-    if status in (1, 2) and not output.strip():
+    if status in (1, 2):
         raise (SceneError if status == 2 else RunError)(errors)
     for own in said:
         if own["tone"] == "warning":
-            warnings.warn(DashpotWarning(own["message"], verb), stacklevel=4)
+            warn(own["message"], verb)
     return status, output, said
 
 
 def _operand(operand: Any, texts: dict[str, str]) -> str:
     if isinstance(operand, Scene):
+        # Beside its file, so that others are found from there; under a name of its own.
         name = operand.file or "scene.toml"
-        if operand.file is None or operand.text != operand._base or name in texts:
-            while texts.get(name, operand.text) != operand.text:
-                name = f"{name}-"
-            texts[name] = operand.text
+        stem, end = os.path.splitext(name)
+        others = (f"{stem}-{at}{end}" for at in itertools.count(2))
+        while texts.get(name, operand.text) != operand.text:
+            name = next(others)
+        texts[name] = operand.text
         return name
     return os.fspath(operand)
 
 
 def _option(flag: str, value: Any, scene: Scene | None) -> list[str]:
+    if isinstance(value, bool) and flag in _ON_OR_OFF:
+        value = "on" if value else "off"
     if value is None or value is False:
         return []
     if value is True:
         return [flag]
     if isinstance(value, Mapping):
-        return [part for key, own in value.items() for part in (flag, f"{key}={_values(key, own, scene)}")]
+        return [f"{flag}={key}={_values(key, own, scene)}" for key, own in value.items()]
     if isinstance(value, (list, tuple)):
-        return [part for own in value for part in (flag, str(own))]
-    return [flag, str(value)]
+        return [f"{flag}={own}" for own in value]
+    return [f"{flag}={value}"]
 
 
 def _values(name: str, value: Any, scene: Scene | None) -> str:
@@ -115,7 +124,12 @@ def _verb(name: str, doc: str) -> Any:
     return function
 
 
-convert = _verb("convert", "Writes a model in another form that does the same, and says how nearly.")
+
+def convert(*operands: Any, **options: Any) -> str:
+    """The text of a model in another form that does the same, and how nearly; as ``dashpot convert``."""
+    return _called("convert", operands, options, None)[1]
+
+
 compare = _verb("compare", "Whether two models or networks are the same from outside; `status` 3 where not.")
 rheometer = _verb("rheometer", "Tests a model alone: creep, relaxation, oscillation.")
 vibrate = _verb("vibrate", "Shakes a linear scene with a sine: transmissibility, resonances, peaks.")

@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ._scene import Scene
-from ._verbs import Sweep, call
+from ._verbs import Sweep, _called, _values, call
 
 
 def sweep(
@@ -39,7 +39,7 @@ def sweep(
         client: a ``dask.distributed.Client``.
         folder: is kept, with one folder for each shard.
         shards: into so many parts; some times the number of workers.
-        retries: so often a shard is tried again whose worker is lost.
+        retries: so often a shard that fails is tried again; one whose worker is lost is solved elsewhere.
         progress: is called with the numbers of shards that are done and of all.
     """
     from dask.distributed import as_completed
@@ -49,10 +49,10 @@ def sweep(
     home.mkdir(parents=True, exist_ok=True)
     text = home / "scene.toml"
     if own.files:
-        raise ValueError(f"the scene reads {own.files[0]!r}: write its values into the scene")
+        raise ValueError(f"workers may not have {own.files[0]!r}: write its values into the scene")
     _write(text, own.text)
     measure = ",".join(measures) or None
-    asked = {"vary": {name: _told(own, name, values) for name, values in vary.items()}}
+    asked = {"vary": {name: _values(name, values, own) for name, values in vary.items()}}
     asked |= {"measure": measure, **options}
     jobs = [(str(text), str(home / f"shard-{at}"), f"{at}/{shards}", asked) for at in range(1, shards + 1)]
     futures = client.map(_shard, jobs, pure=False, retries=retries)
@@ -65,13 +65,8 @@ def sweep(
 
 def _shard(job: tuple[str, str, str, dict[str, Any]]) -> None:
     scene, folder, place, asked = job
-    call("sweep", scene, out=folder, shard=place, threads=1, **asked)
-
-
-def _told(scene: Scene, name: str, values: Any) -> str:
-    from ._verbs import _values
-
-    return _values(name, values, scene)
+    # It tells nothing where the shard was there already.
+    _called("sweep", (scene,), {"out": folder, "shard": place, "threads": 1, **asked}, None)
 
 
 def _write(path: pathlib.Path, text: str) -> None:

@@ -103,8 +103,13 @@ class Network:
         return name
 
     def effect(self, name: str, **parameters: Any) -> None:
-        """Turns an effect on, such as ``network.effect("gravity", value="1 g0")``."""
-        self.effects[name] = {key.replace("_", "-"): of for key, of in parameters.items()}
+        """Turns an effect on, such as ``network.effect("gravity", value="1 g0")``; of one element
+        ``network.effect("separation.pad")``."""
+        place = self.effects
+        *outer, last = name.split(".")
+        for part in outer:
+            place = place.setdefault(part, {})
+        place[last] = {key.replace("_", "-"): of for key, of in parameters.items()}
 
     def as_scene(self) -> dict[str, Any]:
         """As a scene, of dictionaries."""

@@ -6,9 +6,11 @@ use std::{
 };
 
 use dashpot_analysis::{RunError, solve_partial};
-use dashpot_cli::{RunOptions, Said, open, read_scene};
+use dashpot_cli::{RunOptions, Said, failed, open, read_scene};
 use dashpot_network::Assembly;
-use dashpot_scene::{Tunables, units::exact_quantity};
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::Tunables;
+use dashpot_units::si_unit;
 use pyo3::{prelude::*, types::PyList};
 
 use crate::{
@@ -30,6 +32,8 @@ pub(crate) struct Scene {
     assembly: Arc<Assembly>,
     /// What is odd about its text.
     said: Vec<Said>,
+    /// What was set in place of what it says.
+    set: Vec<(String, String)>,
     tunables: OnceLock<Tunables>,
 }
 
@@ -46,7 +50,7 @@ impl Scene {
         let read = py.detach(|| read_scene(text, file, &values));
         let (scene, said) = read.map_err(|said| failure(py, Kind::Input, &said))?;
         let assembly = Arc::new(scene.assembly.clone());
-        Ok(Self { read: scene, assembly, said, tunables: OnceLock::new() })
+        Ok(Self { read: scene, assembly, said, set: values, tunables: OnceLock::new() })
     }
 
     /// Its title.
@@ -55,10 +59,16 @@ impl Scene {
         self.read.title.as_deref()
     }
 
-    /// Its text, with all values as they were set.
+    /// Its text, with all values as they were set, those under `[values]` as well.
     #[getter]
-    fn text(&self) -> &str {
-        &self.read.text
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        let all = self.tunables(py)?;
+        let named = self.set.iter().filter_map(|(name, value)| {
+            // What is set by a path stands in the text already.
+            let is_named = self.read.values.iter().any(|own| own.name == *name);
+            is_named.then(|| all.find(name).ok().map(|at| (at, value.clone())))?
+        });
+        Ok(all.text_with(&named.collect::<Vec<_>>()))
     }
 
     /// How long it runs \[s\].
@@ -95,7 +105,7 @@ impl Scene {
         let all = self.tunables(py)?;
         let own = all.all().iter().enumerate().filter(|(_, own)| own.word.is_none());
         let row = |(at, own): (usize, &dashpot_scene::Tunable)| {
-            let unit = own.dimension.map_or_else(String::new, dashpot_units::si_unit);
+            let unit = own.dimension.map_or_else(String::new, si_unit);
             (own.name.clone(), own.value, unit, all.shown(at))
         };
         Ok(own.map(row).collect())
@@ -105,8 +115,9 @@ impl Scene {
     fn written(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<String> {
         let all = self.tunables(py)?;
         let at = all.find(name).map_err(|fault| sentence(py, Kind::Input, &fault.to_string()))?;
-        let dimension = all.all()[at].dimension;
-        Ok(dimension.map_or_else(|| format!("{value:?}"), |own| exact_quantity(value, own)))
+        let dimension = all.all()[at].dimension.filter(|own| *own != Dimension::NUMBER);
+        let unit = dimension.map_or_else(String::new, |own| format!(" {}", si_unit(own)));
+        Ok(format!("{value:?}{unit}"))
     }
 
     /// Solves it by the method of this name.
@@ -127,7 +138,7 @@ impl Scene {
         let without_errors = !estimate;
         let options = RunOptions { accuracy, neglect, rtol, without_errors, budget, measures };
         let settings = options.settings(&self.read, method);
-        let settings = settings.map_err(|error| sentence(py, Kind::Input, &error.to_string()))?;
+        let settings = settings.map_err(|error| refused(py, error))?;
         let (watcher, raised) = Watcher::new(progress);
         let solved = py.detach(|| {
             let mut observer = OfRun(watcher, settings.duration);
@@ -136,9 +147,16 @@ impl Scene {
         if let Some(error) = raised.take() {
             return Err(error);
         }
-        let failed = |error: RunError| sentence(py, Kind::Run, &error.to_string());
-        solved.map(|report| Report::new(report, options.measures)).map_err(failed)
+        solved
+            .map(|report| Report::new(report, options.measures))
+            .map_err(|error| refused(py, error))
     }
+}
+
+/// Why a run failed; what is wrong with its scene is wrong input.
+fn refused(py: Python<'_>, error: RunError) -> PyErr {
+    let (status, said) = failed(error);
+    failure(py, if status == 2 { Kind::Input } else { Kind::Run }, &said)
 }
 
 impl Scene {

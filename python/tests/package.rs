@@ -1,6 +1,8 @@
 //! The package as Python has it: made of what was built, and tested in a virtual environment. Without a Python of
 //! version 3.10 or later, or without its packages, that is said, and nothing is tested.
 
+#![expect(clippy::unwrap_used, reason = "what a test cannot do fails it")]
+
 use std::{
     env, fs,
     path::{Path, PathBuf},
@@ -9,6 +11,8 @@ use std::{
 
 /// What the tests need; what they use besides is skipped where it is not there.
 const NEEDED: [&str; 2] = ["numpy", "pytest"];
+/// What they use besides, where it can be had.
+const BESIDES: [&str; 6] = ["pandas", "xarray", "pyarrow", "polars", "distributed", "scikit-learn"];
 
 /// The output of a command that went well.
 fn done(program: &Path, arguments: &[&str]) -> Result<String, String> {
@@ -27,6 +31,8 @@ fn interpreter(folder: &Path) -> Result<PathBuf, String> {
     }
     if done(&own, &["-c", &format!("import {}", NEEDED.join(", "))]).is_err() {
         done(&own, &[&["-m", "pip", "install", "--quiet"][..], &NEEDED].concat())?;
+        // What cannot be had is skipped, and that is told.
+        let _ = done(&own, &[&["-m", "pip", "install", "--quiet"][..], &BESIDES].concat());
     }
     Ok(own)
 }
@@ -46,21 +52,24 @@ fn packed(built: &Path) -> PathBuf {
         "macos" => ("lib_dashpot.dylib", "_dashpot.abi3.so"),
         _ => ("lib_dashpot.so", "_dashpot.abi3.so"),
     };
-    fs::copy(built.join(library), package.join(module)).unwrap();
+    let library = [built.join(library), built.join("deps").join(library)]
+        .into_iter()
+        .find(|own| own.is_file());
+    fs::copy(library.unwrap(), package.join(module)).unwrap();
     to
 }
 
 #[test]
 fn the_package_passes_its_tests() {
-    let test = env::current_exe().unwrap();
-    let built = test.ancestors().nth(2).unwrap();
+    let own = env::current_exe().unwrap();
+    let built = own.ancestors().nth(2).unwrap();
     let python = match interpreter(&built.join("python-environment")) {
         Ok(python) => python,
         Err(why) => return eprintln!("skipped: no Python for the tests of the package: {why}"),
     };
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
     let run = Command::new(python)
-        .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+        .args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"])
         .arg(tests)
         .env("PYTHONPATH", packed(built))
         .env("PYTHONDONTWRITEBYTECODE", "1")

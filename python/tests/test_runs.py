@@ -157,3 +157,47 @@ def test_results_of_verbs_are_those_of_the_command(tmp_path):
     assert dashpot.rheometer(f"{path}:a")
     with pytest.raises(dashpot.SceneError):
         dashpot.compare(f"{path}:a")
+
+
+NAMED = """
+title = "a spring under a name"
+[values]
+K = "800 N/m"
+[nodes]
+m = { mass = "2 kg", velocity = "3 m/s" }
+[elements]
+pad = { between = ["m", "ground"], spring = "K" }
+[run]
+duration = "0.1 s"
+[design]
+vary = ["K=100..900 N/m"]
+least = "pad.peak-force"
+limit = ["pad.peak-deformation<=20 cm"]
+"""
+
+
+def test_named_values_reach_every_verb():
+    stiff = dashpot.Scene(text=NAMED, values={"K": 3200.0})
+    assert abs(stiff.run("exact")["pad.peak-force"].value - 240.0) < 1e-9
+    swept = dashpot.sweep(stiff, {"m.velocity": [3.0]}, ["pad.peak-force"])
+    assert abs(swept["pad.peak-force"][0] - 240.0) < 1e-9
+    soft = dashpot.Scene(text=NAMED)
+    assert dashpot.groups(soft, stiff).status == 3 and dashpot.groups(soft, soft).status == 0
+
+
+def test_sections_of_a_scene_are_heeded():
+    found = dashpot.design(dashpot.Scene(text=NAMED))
+    # Half of K x^2 is half of m v^2 where the limit on x is reached.
+    assert abs(found["parameters"]["K"]["value"] / 450.0 - 1.0) < 1e-4
+
+
+def test_a_call_may_come_into_a_call():
+    inner = []
+
+    def progress(share):
+        if not inner:
+            inner.append(dashpot.sweep("reference", {"head.velocity": [4.0, 5.0]}).shape)
+
+    grid = {"head.velocity": np.linspace(1.0, 9.0, 300)}
+    dashpot.sweep("reference", grid, method="bdf", progress=progress)
+    assert inner in ([], [(2,)])

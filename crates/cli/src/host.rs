@@ -1,10 +1,12 @@
 //! The command called by a program in place of a shell: what it reads and says stays in memory.
 
 use std::{
-    cell::RefCell, collections::HashMap, ffi::OsString, iter::once, ops::ControlFlow, path::Path,
+    cell::RefCell, collections::HashMap, env, ffi::OsString, iter::once, mem::replace,
+    ops::ControlFlow, path::Path,
 };
 
 use clap::Parser;
+use dashpot_analysis::RunError;
 use dashpot_scene::{Diagnostic, Diagnostics, ReadOptions, Scene, Severity, read};
 
 use crate::{
@@ -95,6 +97,12 @@ impl Said {
     }
 }
 
+/// Why a run failed, and the exit code of that.
+pub fn failed(error: RunError) -> (u8, Vec<Said>) {
+    let error = CliError::Run(error);
+    (error.status() as u8, Said::all(&error))
+}
+
 /// The name of the file and the text of a scene: a file, or a built-in scene.
 ///
 /// # Errors
@@ -123,6 +131,8 @@ pub fn read_scene(
 
 struct Hosted {
     host: Host,
+    /// What it called with, from the verb on.
+    arguments: Vec<OsString>,
     called: Called,
 }
 
@@ -140,8 +150,11 @@ struct Hosted {
 /// assert_eq!((called.status, called.output.contains("exact")), (0, true));
 /// ```
 pub fn call(arguments: impl IntoIterator<Item = OsString>, host: Host) -> Called {
-    HOSTED.set(Some(Hosted { host, called: Called::default() }));
-    let status = match Arguments::try_parse_from(once("dashpot".into()).chain(arguments)) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let words: Vec<OsString> = once("dashpot".into()).chain(arguments.iter().cloned()).collect();
+    // A call from within a call ends before that goes on.
+    let _outer = Outer(HOSTED.replace(Some(Hosted { host, arguments, called: Called::default() })));
+    let status = match Arguments::try_parse_from(words) {
         Ok(arguments) => {
             let terminal = Terminal::unattended();
             arguments.command.run(terminal).unwrap_or_else(|error| {
@@ -157,6 +170,21 @@ pub fn call(arguments: impl IntoIterator<Item = OsString>, host: Host) -> Called
     };
     let called = HOSTED.take().map(|own| own.called).unwrap_or_default();
     Called { status: status as u8, ..called }
+}
+
+/// The call that another one has come into; it goes on however that ends.
+struct Outer(Option<Hosted>);
+
+impl Drop for Outer {
+    fn drop(&mut self) {
+        HOSTED.set(self.0.take());
+    }
+}
+
+/// The arguments of the command, from the verb on.
+pub(crate) fn arguments() -> Vec<OsString> {
+    let own = HOSTED.with_borrow(|own| own.as_ref().map(|own| own.arguments.clone()));
+    own.unwrap_or_else(|| env::args_os().skip(1).collect())
 }
 
 /// Whether a program calls.
@@ -192,5 +220,12 @@ fn told(tell: impl FnOnce(&mut Called)) -> bool {
 
 /// What a program that calls says to the share that is done; `None` where none does.
 pub(crate) fn progress(share: f64) -> Option<ControlFlow<()>> {
-    HOSTED.with_borrow_mut(|own| own.as_mut().map(|own| (own.host.watch)(share)))
+    let silent: Watch = Box::new(|_| ControlFlow::Continue(()));
+    let place =
+        |watch| HOSTED.with_borrow_mut(|own| Some(replace(&mut own.as_mut()?.host.watch, watch)));
+    // It may call in turn, so nothing is borrowed meanwhile.
+    let mut watch = place(silent)?;
+    let answer = watch(share);
+    place(watch);
+    Some(answer)
 }

@@ -30,7 +30,7 @@ use std::{io::ErrorKind, process::ExitCode};
 
 use clap::Parser;
 
-pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
+pub use host::{Called, Host, Said, Tone, Watch, call, failed, open, read_scene};
 pub use input::load;
 pub use sketch::drawing;
 pub use verbs::run::RunOptions;

@@ -1,12 +1,12 @@
 //! Sections such as `[fit]` and `[design]` of a scene: the options of a verb by their names. Those of the command line
 //! stand above them.
 
-use std::{env, ffi::OsString, path::Path};
+use std::{ffi::OsString, path::Path};
 
 use clap::{ArgAction, Args, Command, FromArgMatches};
 use dashpot_scene::{Wish, wishes};
 
-use crate::{error::CliError, input::Input, output::list};
+use crate::{error::CliError, host, input::Input, output::list};
 
 /// Options of a call, which no scene has.
 const OF_THE_CALL: [&str; 4] = ["out", "force", "json", "set"];
@@ -35,7 +35,8 @@ impl Verb {
         if wishes.is_empty() {
             return Ok(None);
         }
-        let given: Vec<OsString> = list(env::args_os().skip_while(|own| own != self.name).skip(1));
+        let given: Vec<OsString> =
+            list(host::arguments().into_iter().skip_while(|own| own != self.name).skip(1));
         self.with(&wishes, given, &input.file).map(Some)
     }
 

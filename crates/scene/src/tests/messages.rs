@@ -47,7 +47,7 @@ error: unknown key `titel` in the scene
 1 | titel = "Head on a pad"
   | ^^^^^
   |
-  = help: did you mean `title`? known keys: title, values, models, materials, nodes, elements, effects, loads, measures, limits, accuracy, run, fit, design
+  = help: did you mean `title`? known keys: title, values, models, materials, nodes, elements, effects, loads, measures, limits, accuracy, run, fit, design, scatter
 
 error: `NM` is not a known unit
  --> scene.toml:4:5
