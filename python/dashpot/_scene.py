@@ -157,6 +157,11 @@ class Report(Mapping[str, Any]):
         return self._own.method
 
     @property
+    def wall(self) -> float:
+        """What the engine took for it by the clock, in s."""
+        return self._own.wall
+
+    @property
     def warnings(self) -> list[tuple[str, str]]:
         """Its warnings: code and text, the most important first."""
         return self._own.warnings

@@ -81,6 +81,12 @@ impl Report {
         self.0.trajectory.t_end
     }
 
+    /// What the engine took for it by the clock \[s\].
+    #[getter]
+    fn wall(&self) -> f64 {
+        self.0.solver.wall_in_all.as_secs_f64()
+    }
+
     /// The keys of its measures.
     fn keys(&self) -> Vec<&str> {
         self.0.told().map(|own| own.key.as_str()).collect()
