@@ -9,6 +9,8 @@ use std::{
     process::Command,
 };
 
+/// A machine without a network is not waited for.
+const INSTALL: [&str; 8] = ["-m", "pip", "install", "--quiet", "--retries", "1", "--timeout", "30"];
 /// What the tests need; what they use besides is skipped where it is not there.
 const NEEDED: [&str; 2] = ["numpy", "pytest"];
 /// What they use besides, where it can be had.
@@ -30,9 +32,10 @@ fn interpreter(folder: &Path) -> Result<PathBuf, String> {
         done(&python, &["-m", "venv", &folder.to_string_lossy()])?;
     }
     if done(&own, &["-c", &format!("import {}", NEEDED.join(", "))]).is_err() {
-        done(&own, &[&["-m", "pip", "install", "--quiet"][..], &NEEDED].concat())?;
+        let install = |packages: &[&str]| done(&own, &[&INSTALL[..], packages].concat());
+        install(&NEEDED)?;
         // What cannot be had is skipped, and that is told.
-        let _ = done(&own, &[&["-m", "pip", "install", "--quiet"][..], &BESIDES].concat());
+        let _ = install(&BESIDES);
     }
     Ok(own)
 }
