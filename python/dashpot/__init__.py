@@ -28,6 +28,7 @@ from ._verbs import (
     rheometer,
     signal,
     sweep,
+    sweep_to_parquet,
     vibrate,
 )
 from .network import Model, Network, element
@@ -59,5 +60,6 @@ __all__ = [
     "run",
     "signal",
     "sweep",
+    "sweep_to_parquet",
     "vibrate",
 ]

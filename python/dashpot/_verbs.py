@@ -245,6 +245,32 @@ def sweep(
     return Sweep(call("sweep", own, vary=vary or {}, measure=measure, progress=progress, **options))
 
 
+def sweep_to_parquet(
+    scene: Any,
+    folder: str | os.PathLike[str],
+    vary: Mapping[str, Any] | None = None,
+    measures: list[str] | tuple[str, ...] = (),
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Result:
+    """A sweep of any size, written as Parquet while it is solved, as ``dashpot sweep --parquet``; memory does not grow
+    with its points. The folder is read by ``pandas.read_parquet(folder / "points-00000001.parquet")`` file by file, or
+    as a whole by DuckDB, polars and Dask as ``folder/*.parquet``.
+
+    Args:
+        folder: holds the points of this sweep and nothing else. What is there, whole, is not solved again: after an
+            interruption the same call goes on.
+        scene, vary, measures, progress, options: as of `sweep`.
+
+    Returns:
+        What is known of all points: counts, extremes, warnings, and the names of the files under ``"parquet"``.
+    """
+    own = scene if isinstance(scene, Scene) else Scene(scene)
+    options |= {"vary": vary or {}, "measure": ",".join(measures) or None}
+    return call("sweep", own, out=os.fspath(folder), parquet=True, progress=progress, **options)
+
+
 def figure(report: Report) -> str:
     """Forces over time of a run as SVG, as ``run --out`` draws them."""
     with tempfile.TemporaryDirectory() as folder:

@@ -42,6 +42,47 @@ def sweep(
         retries: so often a shard that fails is tried again; one whose worker is lost is solved elsewhere.
         progress: is called with the numbers of shards that are done and of all.
     """
+    jobs = _solve(client, scene, vary, measures, folder, shards, retries, progress, options)
+    return Sweep(call("merge", *jobs))
+
+
+def sweep_to_parquet(
+    client: Any,
+    scene: Any,
+    vary: Mapping[str, Any],
+    measures: list[str] | tuple[str, ...] = (),
+    *,
+    folder: str | os.PathLike[str],
+    shards: int,
+    retries: int = 2,
+    progress: Callable[[int, int], object] | None = None,
+    **options: Any,
+) -> list[pathlib.Path]:
+    """The points of a sweep of any size as Parquet, written by the workers of a Dask client; nothing is put together.
+
+    Args:
+        client, scene, vary, measures, folder, shards, retries, progress, options: as of `sweep`.
+
+    Returns:
+        The files in the order of the points, for DuckDB, polars, pandas or ``dask.dataframe.read_parquet``.
+    """
+    options |= {"parquet": True}
+    jobs = _solve(client, scene, vary, measures, folder, shards, retries, progress, options)
+    return [file for job in jobs for file in sorted(pathlib.Path(job).glob("points-*.parquet"))]
+
+
+def _solve(
+    client: Any,
+    scene: Any,
+    vary: Mapping[str, Any],
+    measures: list[str] | tuple[str, ...],
+    folder: str | os.PathLike[str],
+    shards: int,
+    retries: int,
+    progress: Callable[[int, int], object] | None,
+    options: dict[str, Any],
+) -> list[str]:
+    """Solves what is not there yet; the folders of all shards."""
     from dask.distributed import as_completed
 
     own = scene if isinstance(scene, Scene) else Scene(scene)
@@ -60,7 +101,7 @@ def sweep(
         future.result()
         if progress is not None:
             progress(done, shards)
-    return Sweep(call("merge", *(job[1] for job in jobs)))
+    return [job[1] for job in jobs]
 
 
 def _shard(job: tuple[str, str, str, dict[str, Any]]) -> None:

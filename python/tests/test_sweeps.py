@@ -81,6 +81,23 @@ def test_arrow_streams_are_read(swept, reader):
     assert (np.asarray(found) == swept[KEY].ravel()).all()
 
 
+@pytest.mark.parametrize("reader", ["pandas", "polars", "duckdb"])
+def test_parquet_has_the_same_bits(swept, reader, tmp_path):
+    module = pytest.importorskip(reader)
+    known = dashpot.sweep_to_parquet("reference", tmp_path / "points", swept.parameters, [KEY])
+    file = tmp_path / "points" / known["parquet"][0]
+    if reader == "duckdb":
+        found = module.sql(f"select * from '{file}'").fetchnumpy()
+    else:
+        pytest.importorskip("pyarrow")
+        found = module.read_parquet(file)
+    assert (np.asarray(found[f"{KEY} [N]"]) == swept[KEY].ravel()).all()
+    assert (np.asarray(found[f"error of {KEY} [N]"]) == swept.error(KEY).ravel()).all()
+    assert known["points"] == 21 and known["measures"][0]["highest"] == swept[KEY].max()
+    again = dashpot.sweep_to_parquet("reference", tmp_path / "points", swept.parameters, [KEY])
+    assert again == known and "files are there, whole" in again.notes[0]
+
+
 def test_words_are_swept(tmp_path):
     scene = dashpot.Scene("reference")
     names = {"padding.model": ["valox-pad"]}

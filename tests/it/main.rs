@@ -55,6 +55,8 @@ mod mutated_runs;
 mod on_demand;
 mod order;
 mod pads;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod partial;
 mod pictures;
 mod plain_impacts;

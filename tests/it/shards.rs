@@ -120,7 +120,7 @@ fn a_shard_that_is_whole_is_left_and_others_are_refused_by_name() {
     // Another one there.
     let other = run(&[&sweep[..], &["--shard", "2/3", "--out", &folders[2]]].concat());
     assert_eq!(code(&other), 2);
-    assert!(said(&other).contains("1-of-3`: there is a shard of another"), "{}", err(&other));
+    assert!(said(&other).contains("1-of-3`: there are points of another"), "{}", err(&other));
 
     // One that is gone, one that is there twice, and one of another sweep.
     let gone = merge(&folders[..2], &[]);

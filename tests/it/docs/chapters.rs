@@ -7,7 +7,7 @@ const CHAPTERS: [(&str, usize, usize); 21] = [
     ("quick-start", 4, 1),
     ("vibration", 2, 1),
     ("thesis", 1, 4),
-    ("sweeps", 7, 3),
+    ("sweeps", 8, 3),
     ("gradients", 1, 0),
     ("fit", 6, 0),
     ("design", 8, 0),

@@ -46,7 +46,7 @@ pub use self::{
     forces::{ContactForce, ContactForces, PoseAt},
     parallel::Watch,
     report::{Column, Gap, PartialOfSweep, SweepError, SweepReport, SweepWarning},
-    shards::{Raised, Shard, merge, points_of_shard, sweep_shard},
+    shards::{Raised, Shard, merge, points_of_shard, sweep_in_parts, sweep_shard},
 };
 use self::{full::Flaws, report::Notice};
 use crate::{

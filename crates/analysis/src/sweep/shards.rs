@@ -43,6 +43,17 @@ pub struct Shard {
     pub estimated: usize,
 }
 
+impl Shard {
+    fn counted_from_its_first(mut self) -> Self {
+        let first = self.points.start;
+        self.points = 0..self.points.len();
+        self.gaps.iter_mut().for_each(|own| own.point -= first);
+        self.cut.iter_mut().for_each(|own| own.0 -= first);
+        self.raised.iter_mut().flat_map(|own| &mut own.points).for_each(|own| *own -= first);
+        self
+    }
+}
+
 /// Where runs are warned of one kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Raised {
@@ -76,6 +87,38 @@ pub fn sweep_shard(
     watch: &mut Watch<'_>,
 ) -> Result<Shard, SweepError> {
     ready((grid, pose, columns), options, |ready| Ok(ready.solve(points, watch)?.0))
+}
+
+/// Solves a sweep in parts, which are handed over one after the other, so that no more than one of them is held. Each is
+/// a report of its own, whose points are counted from the first one of the part; values and errors are those of
+/// [`sweep`](super::sweep()) to the bit where parts begin and end with whole groups, as [shards](points_of_shard) do.
+///
+/// # Errors
+///
+/// Those of [`sweep`](super::sweep()), and what `take` does not take.
+pub fn sweep_in_parts<E: From<SweepError>>(
+    grid: &Grid,
+    pose: &Pose<'_>,
+    columns: &[Column],
+    options: SweepOptions,
+    parts: &[Range<usize>],
+    mut take: impl FnMut(&Range<usize>, SweepReport) -> Result<(), E>,
+    watch: &mut Watch<'_>,
+) -> Result<(), E> {
+    let mut solve = |ready: &Ready<'_>| {
+        let (mut before, all) = (0, parts.iter().map(Range::len).sum());
+        for part in parts {
+            let started = Instant::now();
+            let mut within = |done, _| watch(before + done, all);
+            let (shard, warnings) = ready.solve(part.clone(), &mut within)?;
+            let mut report = ready.report(vec![(shard.counted_from_its_first(), warnings)]);
+            report.wall = started.elapsed();
+            take(part, report)?;
+            before += part.len();
+        }
+        Ok(())
+    };
+    ready((grid, pose, columns), options, |ready| Ok(solve(ready)))?
 }
 
 /// What the shards of a sweep, in the order of their points, yield together: the report of

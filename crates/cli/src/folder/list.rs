@@ -18,7 +18,7 @@ const HEAD: &str = "dashpot results 1";
 /// The beginning of a line with the token of a writer that is at work.
 const AT_WORK: &str = "part ";
 /// Endings of the names of results.
-const ENDINGS: [&str; 7] = ["csv", "f64", "html", "json", "md", "svg", "toml"];
+const ENDINGS: [&str; 8] = ["csv", "f64", "html", "json", "md", "parquet", "svg", "toml"];
 
 /// The names of results, each with the fingerprint of what was written.
 ///

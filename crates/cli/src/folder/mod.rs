@@ -61,6 +61,43 @@ impl Folder {
         Ok(folder)
     }
 
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The names of the results that are there as they were written.
+    pub(crate) fn whole(&self) -> Result<Vec<String>, CliError> {
+        let list = List::read(&self.path)?;
+        let mut names: Vec<String> = list.files.iter().map(|own| own.0.clone()).collect();
+        names.dedup();
+        names.retain(|name| list.has(&self.path, name));
+        Ok(names)
+    }
+
+    /// Adds one file to those that are there, at once, in place of its namesake: after a sudden end it is found whole
+    /// or not at all. The [`RESULT`], which says that all are there, comes last.
+    pub(crate) fn keep(&mut self, name: &str, content: &[u8]) -> Result<(), CliError> {
+        let (mut list, token) = (List::read(&self.path)?, token());
+        refuse_foreign(&self.path, &list, [name.to_owned()].into_iter())?;
+        remove(self, RESULT)?;
+        let unwritable = unwritable(&self.path.join(name));
+        let part = Part::new(&self.path, &part_name(&token, 1), |out| out.write_all(content));
+        let (part, print) = part.map_err(&unwritable)?;
+        list.files.retain(|own| own.0 != name);
+        list.files.push((name.to_owned(), print));
+        list.at_work = Some(token.clone());
+        list.is_there = true;
+        // First, so that the part is known should this process come to a sudden end.
+        list.write(&self.path, &token)?;
+        self.is_new = false;
+        part.place(&self.path.join(name)).map_err(&unwritable)?;
+        if name == RESULT {
+            list.at_work = None;
+            list.write(&self.path, &token)?;
+        }
+        Ok(())
+    }
+
     /// Writes the files that `add` adds, and the `result` last, instead of earlier results, and tells of
     /// it: where results are printed, or on standard error `beside` a document.
     pub(crate) fn write(

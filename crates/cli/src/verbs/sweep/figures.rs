@@ -152,8 +152,9 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
         ReferenceLine { direction, at, label, colour: None }
     };
     let pressed = report.columns[column].is_share.then(|| line_at(1.0, PRESSED.to_owned()));
-    let limits = limits_of(report, column)
-        .map(|limit| line_at(unit.of(limit.bound.level()), words::limit(report, column, limit)));
+    let limits = limits_of(report, column).map(|limit| {
+        line_at(unit.of(limit.bound.level()), words::limit(&report.columns[column], limit))
+    });
     Chart {
         title: heading,
         note,
@@ -235,9 +236,13 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
         doubted: turned(count, &doubted(report, at)),
         at: limit.bound.level(),
         label: if *of == column {
-            words::limit(report, *of, limit)
+            words::limit(&report.columns[*of], limit)
         } else {
-            format!("{} {}", quantity(&report.columns[*of]), words::limit(report, *of, limit))
+            format!(
+                "{} {}",
+                quantity(&report.columns[*of]),
+                words::limit(&report.columns[*of], limit)
+            )
         },
         kept: match limit.bound {
             Bound::Max(_) => Side::Below,

@@ -2,7 +2,10 @@
 
 use std::{fmt::Write as _, io};
 
-use dashpot_analysis::{Judgement, sweep::Column};
+use dashpot_analysis::{
+    Judgement,
+    sweep::{Column, SweepReport},
+};
 use dashpot_plot::ReportFigure;
 
 use super::{
@@ -79,23 +82,6 @@ pub(super) fn write(files: &mut Staged<'_>, swept: &Swept) -> Result<(), CliErro
 /// warnings there, as CSV; what is missing is blank.
 pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
     let (variations, report) = (&swept.varied.variations, &swept.report);
-    let own = variations.iter().enumerate();
-    let own = own.map(|(at, own)| {
-        if own.is_of_words() {
-            own.name.clone()
-        } else {
-            format!("{} [{}]", own.name, swept.unit(at))
-        }
-    });
-    let found = report.columns.iter().flat_map(|column| {
-        let (name, unit) = (name(column), column.unit);
-        [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
-    });
-    let limits = report.limits.iter().map(|(column, limit)| {
-        let (bound, unit) = (limit.bound, report.columns[*column].unit);
-        format!("{} {} {} {unit}", limit.key, bound.sign(), number(bound.level()))
-    });
-    let header = own.chain(found).chain(limits).chain([WARNINGS.to_owned()]);
     let judged = list((0..report.limits.len()).map(|at| report.judged(at)));
     let width = report.columns.len();
     let points = report.values.chunks(width).zip(report.errors.chunks(width));
@@ -114,7 +100,27 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
         let judged = judged.iter().map(|own| own[point].map_or("", Judgement::word).to_owned());
         list(own.chain(both.map(number)).chain(judged).chain([raised]))
     });
-    csv(out, header, rows)
+    csv(out, header(&swept.varied, report), rows)
+}
+
+/// The headings of a table of all points: parameters, measures with their errors, limits, warnings.
+pub(super) fn header(varied: &Varied, report: &SweepReport) -> Vec<String> {
+    let own = varied.variations.iter().enumerate().map(|(at, own)| {
+        if own.is_of_words() {
+            own.name.clone()
+        } else {
+            format!("{} [{}]", own.name, varied.unit(at))
+        }
+    });
+    let found = report.columns.iter().flat_map(|column| {
+        let (name, unit) = (name(column), column.unit);
+        [format!("{name} [{unit}]"), format!("error of {name} [{unit}]")]
+    });
+    let limits = report.limits.iter().map(|(column, limit)| {
+        let (bound, unit) = (limit.bound, report.columns[*column].unit);
+        format!("{} {} {} {unit}", limit.key, bound.sign(), number(bound.level()))
+    });
+    list(own.chain(found).chain(limits).chain([WARNINGS.to_owned()]))
 }
 
 /// The shortest digits that give the number back.

@@ -31,7 +31,7 @@ pub(super) fn kept(swept: &Swept) -> Vec<String> {
             0 => String::new(),
             count => format!(", {count} undecided{beyond}"),
         };
-        let limit = words::limit(report, *column, own);
+        let limit = words::limit(&report.columns[*column], own);
         let stretches = stretches(swept, at, &judged);
         let [within, by_words] = match &stretches[..] {
             [] => Default::default(),

@@ -1,11 +1,14 @@
 //! `dashpot sweep`.
 
+mod arguments;
 mod best;
 mod figures;
 mod files;
 mod gradient;
 mod kept;
 mod page;
+#[cfg(feature = "parquet")]
+mod parts;
 mod points;
 mod shards;
 mod titles;
@@ -13,13 +16,8 @@ mod unmoved;
 mod varied;
 mod words;
 
-use std::{
-    num::NonZero,
-    path::{Path, PathBuf},
-    thread::available_parallelism,
-};
+use std::path::Path;
 
-use clap::{Args, ValueEnum};
 use dashpot_analysis::{
     Judgement, Limit, RunError,
     sweep::{
@@ -28,21 +26,22 @@ use dashpot_analysis::{
     },
 };
 use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-pub(crate) use self::shards::{MISSING_HELP, MergeArguments, ShardFault, merged, missing};
+pub(crate) use self::{
+    arguments::SweepArguments,
+    shards::{MISSING_HELP, MergeArguments, ShardFault, merged, missing},
+};
 use self::{
+    arguments::{EstimatedPoints, OutputArguments},
     shards::{OfShard, Place, Stored},
     varied::{Form, Varied},
     words::{notes, summary},
 };
 use crate::{
-    args::{
-        LimitArguments, MOST_POINTS as MOST, SceneArguments, When, budget, method_names, samples,
-        share,
-    },
+    args::{MOST_POINTS as MOST, When},
     error::{CliError, Status},
-    folder::{Folder, Staged},
+    folder::Staged,
     input::{Input, title},
     numbers::counted,
     operand::print_notes,
@@ -52,120 +51,6 @@ use crate::{
     said,
     terminal::{Terminal, note},
 };
-
-/// `sweep`.
-#[derive(Debug, Clone, Args, Serialize, Deserialize)]
-#[command(after_help = "Examples:\n  \
-    dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
-    dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
-    dashpot sweep pad.toml --points designs.csv\n  \
-    dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
-    --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n  \
-    dashpot sweep helmet.toml --vary liner.material=eps,epp,vn --vary \"drop=0.5..2 m\"\n  \
-    dashpot sweep pad.toml --gradient K,head.mass\n  \
-    dashpot sweep pad.toml --points designs.csv --shard 3/10 --out part-3\n  \
-    dashpot sweep pad.toml --vary \"K=5..30 MN/m\" --vary \"C=2..9 kN s/m\" --sample 200\n\n\
-    A number of the scene goes by its path, such as head.velocity, mount.dashpot, \
-    padding.maxwell.spring or padding.thickness, or by its name under [values]. Its values are a \
-    range, with their count and `lin` or `log`, or a list: \"K=5,10,20 MN/m\". A word of it, such as \
-    that of a material, takes a list of words. In a pipe or file \
-    the table is CSV, in SI units.")]
-pub(crate) struct SweepArguments {
-    #[command(flatten)]
-    scene: SceneArguments,
-    #[command(flatten)]
-    limits: LimitArguments,
-    /// Exits with 4 unless every point keeps every limit, however the errors lie.
-    #[arg(long, conflicts_with = "gradient")]
-    #[serde(skip)]
-    enforce: bool,
-    /// A number of the scene and the values that it takes; repeatable, for all combinations.
-    #[arg(long, value_name = "NAME=VALUES", required_unless_present_any = ["points", "gradient"])]
-    vary: Vec<String>,
-    /// Designs from a table in place of all combinations: a CSV file whose first line names numbers and words of
-    /// the scene with their units, such as `liner.thickness [mm],liner.material`; each row is one. Columns of
-    /// other words name the designs.
-    #[arg(long, value_name = "FILE", conflicts_with = "vary")]
-    points: Option<PathBuf>,
-    /// So many designs in place of all combinations: a Latin hypercube of the ranges; of a list, and of a range
-    /// with a count, each value is taken equally often.
-    #[arg(long, value_name = "NUMBER", requires = "vary", value_parser = samples)]
-    sample: Option<usize>,
-    /// Which designs `--sample` takes; the same number gives the same ones.
-    #[arg(long, value_name = "NUMBER", requires = "sample", default_value_t = 1)]
-    seed: u64,
-    /// Derivatives of the measures with respect to these numbers, at every point or, without `--vary`, of the scene
-    /// itself: by how many percent a measure changes where a number rises by one.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',', conflicts_with_all = ["estimate", "neglect"])]
-    gradient: Vec<String>,
-    /// Measures, such as padding.peak-force [default: all that the scene reports].
-    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
-    measure: Vec<String>,
-    /// Method for all points [default: the scene's, if it names one, else auto]; points are instantiated by
-    /// auto and exact only.
-    #[arg(long, value_name = "NAME", value_parser = method_names())]
-    method: Option<String>,
-    /// Leaves out what moves no measure by more than this, relative, such as 0.5%; verified at
-    /// points spread over the sweep [default: the scene's, else nothing].
-    #[arg(long, value_name = "SHARE", value_parser = share)]
-    neglect: Option<f64>,
-    /// Where errors are estimated by further solutions; some: at three of 64 points, whose errors stand for
-    /// those near them [default: some; of a table, whose rows need not be near each other, all].
-    #[arg(long, value_enum, value_name = "WHERE")]
-    estimate: Option<EstimatedPoints>,
-    /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
-    #[arg(long, value_name = "UNITS", value_parser = budget)]
-    budget: Option<u64>,
-    /// How many threads share the points; the results are the same [default: one per core].
-    #[arg(long, value_name = "NUMBER")]
-    #[serde(skip)]
-    threads: Option<NonZero<usize>>,
-    /// One part of so many, such as 3/10, for a queue of jobs or several machines: only its points are solved, and
-    /// `dashpot merge` puts the folders of all together, to the bytes of one sweep. A shard that is there, whole, is
-    /// left as it is.
-    #[arg(long, value_name = "NUMBER/OF", value_parser = shards::place, requires = "out", conflicts_with_all = ["gradient", "enforce", "table"])]
-    #[serde(skip)]
-    shard: Option<Place>,
-    #[command(flatten)]
-    #[serde(skip)]
-    output: OutputArguments,
-}
-
-/// Where the result of a sweep goes, and how.
-#[derive(Debug, Clone, Default, Args)]
-pub(crate) struct OutputArguments {
-    /// Folder for CSV, JSON, SVG and HTML: lines over one parameter, maps over two, and report.html with
-    /// everything on one page.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Prints one JSON object, in SI units, in place of the table.
-    #[arg(long)]
-    json: bool,
-    /// A table in handy units for people, in place of CSV in SI units; `auto` prints it on terminals.
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
-    table: When,
-}
-
-/// The points of a sweep at which errors are estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-enum EstimatedPoints {
-    /// Every point.
-    All,
-    /// Some points.
-    Some,
-    /// None.
-    Off,
-}
-
-impl From<EstimatedPoints> for Estimates {
-    fn from(points: EstimatedPoints) -> Self {
-        match points {
-            EstimatedPoints::All => Self::All,
-            EstimatedPoints::Some => Self::Some,
-            EstimatedPoints::Off => Self::Off,
-        }
-    }
-}
 
 /// What was varied, in what, and what was found.
 struct Swept {
@@ -215,12 +100,6 @@ fn solved_or_merged(
     if let Some(own) = stored.iter().flatten().find(|own| own.sweep != hash) {
         return Err(own.fault(ShardFault::Changed));
     }
-    if let Some(place) = arguments.shard
-        && Stored::found(&arguments.output, place, &hash)?
-    {
-        return Ok(Status::Done);
-    }
-    let folder = arguments.folder(&varied, &columns)?;
     let of_text = |text: &str| {
         let posed = pose(text, &input.options(&set)).map_err(|faults| {
             let messages = faults.list.iter().map(Diagnostic::message);
@@ -233,7 +112,30 @@ fn solved_or_merged(
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
+    let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
+    let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let of = (&varied, &grid, arguments.points.as_deref());
+    #[cfg(feature = "parquet")]
+    if arguments.parquet {
+        terminal.diagnose(&of_ends(of, (&input, &set), known)?);
+        let (scene, varied, grid) = (&scene, &varied, &grid);
+        let wanted = parts::Wanted {
+            scene,
+            varied,
+            grid,
+            pose: &at,
+            columns: &columns,
+            estimates,
+            sweep: hash,
+        };
+        return parts::written(arguments, &wanted, terminal);
+    }
+    if let Some(place) = arguments.shard
+        && Stored::found(&arguments.output, place, &hash)?
+    {
+        return Ok(Status::Done);
+    }
+    let folder = arguments.folder(&varied, &columns)?;
     terminal.diagnose(&of_ends(of, (&input, &set), known)?);
     if !arguments.gradient.is_empty() {
         return gradient::gradient(
@@ -245,8 +147,6 @@ fn solved_or_merged(
             terminal,
         );
     }
-    let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
-    let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let found = found((arguments, estimates, stored), (&grid, &at, &columns), terminal)?;
     let OutputArguments { json, table, .. } = arguments.output;
     match found {
@@ -363,22 +263,6 @@ fn of_ends(
     Ok(Diagnostics { list: shown.split_off(before), omitted: 0 })
 }
 
-impl SweepArguments {
-    /// The folder that is asked for, where one is.
-    fn folder(&self, varied: &Varied, columns: &[Column]) -> Result<Option<Folder>, CliError> {
-        let names = match (self.gradient.is_empty(), self.shard) {
-            (false, _) => vec![gradient::TABLE.to_owned()],
-            (true, Some(_)) => vec![shards::VALUES.to_owned()],
-            (true, None) => files::names(varied, columns),
-        };
-        Folder::wanted(self.output.out.as_deref(), names)
-    }
-
-    fn threads(&self) -> usize {
-        self.threads.or(available_parallelism().ok()).map_or(1, NonZero::get)
-    }
-}
-
 /// What a parameter takes.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -390,7 +274,7 @@ enum Values<'v> {
 impl Study for Swept {
     fn text(&self, text: &mut Text) {
         text.title(title(&self.scene));
-        self.in_words().iter().for_each(|in_word| text.faint(in_word));
+        self.varied.in_words().iter().for_each(|in_word| text.faint(in_word));
         text.blank();
         text.items(page::verdict(self, &best::best(self)));
         let (table, more) = points::table(self);
@@ -450,7 +334,7 @@ impl Study for Swept {
             object! {
                 name: &own.name,
                 path: tunable.map(|at| &self.varied.tunables.all()[at].path),
-                unit: self.unit(at),
+                unit: self.varied.unit(at),
                 values: if own.is_of_words() { Values::Words(&own.words) } else { Values::Numbers(&own.values) },
             }
         }));

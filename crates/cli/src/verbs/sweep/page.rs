@@ -20,7 +20,7 @@ const DIGITS: usize = 4;
 pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
     let (limits, best) = (limits(swept), best(swept));
     let tables = [
-        Table::list("What varies", swept.in_words()),
+        Table::list("What varies", swept.varied.in_words()),
         limits,
         best_table(swept, &best),
         extremes(swept),
@@ -66,7 +66,7 @@ fn limits(swept: &Swept) -> Table {
             words.filter(|own| *own == which).count().to_string()
         };
         let name = capital(&quantity(&report.columns[*column]));
-        let bound = words::limit(report, *column, limit);
+        let bound = words::limit(&report.columns[*column], limit);
         list([name, bound].into_iter().chain(header[2..].iter().map(|own| count(own))))
     };
     Table::new("Limits", &header, (0..report.limits.len()).map(row))

@@ -82,7 +82,7 @@ impl Told {
             }
             Self::Verdicts(at, _) => {
                 let (column, own) = &report.limits[*at];
-                format!("verdict\n{}", words::level_of(report, *column, own))
+                format!("verdict\n{}", words::level_of(&report.columns[*column], own))
             }
         }
     }

@@ -43,20 +43,11 @@ impl SweepArguments {
 }
 
 impl Swept {
-    /// SI unit of a parameter.
-    pub(super) fn unit(&self, parameter: usize) -> String {
-        let own = || self.varied.tunables.all()[self.varied.matched[parameter]?].dimension;
-        let dimension = self.varied.variations[parameter].dimension.or_else(own);
-        dimension
-            .filter(|dimension| *dimension != Dimension::NUMBER)
-            .map_or("1".to_owned(), si_unit)
-    }
-
     /// The unit of a parameter as the command line says it, else the SI unit, and its values therein.
     pub(super) fn in_unit(&self, parameter: usize) -> (String, &[f64]) {
         let own = &self.varied.variations[parameter];
         if own.unit.is_empty() {
-            (self.unit(parameter), &own.values)
+            (self.varied.unit(parameter), &own.values)
         } else {
             (own.unit.clone(), &own.numbers)
         }
@@ -75,6 +66,17 @@ impl Swept {
         let places = self.varied.places(&self.grid.places(point)).into_iter();
         places.zip(&self.varied.variations).map(|(place, own)| shown(own, place)).collect()
     }
+}
+
+impl Varied {
+    /// SI unit of a parameter.
+    pub(super) fn unit(&self, parameter: usize) -> String {
+        let own = || self.tunables.all()[self.matched[parameter]?].dimension;
+        let dimension = self.variations[parameter].dimension.or_else(own);
+        dimension
+            .filter(|dimension| *dimension != Dimension::NUMBER)
+            .map_or("1".to_owned(), si_unit)
+    }
 
     /// One line for each parameter.
     pub(super) fn in_words(&self) -> Vec<String> {
@@ -84,14 +86,14 @@ impl Swept {
             };
             let last = own.len() - 1;
             let scale = if own.is_logarithmic { " at equal ratios" } else { "" };
-            let path = &self.varied.tunables.all()[at].path;
+            let path = &self.tunables.all()[at].path;
             let path = if *path == own.name { String::new() } else { format!(" ({path})") };
-            let shown = self.varied.tunables.shown(at);
+            let shown = self.tunables.shown(at);
             let name = &own.name;
-            match self.varied.form {
+            match self.form {
                 Form::Listed => return format!("{name}{path}: by the table; {shown} in the scene"),
                 Form::Sampled => {
-                    let range = &self.varied.ranges[place];
+                    let range = &self.ranges[place];
                     return format!(
                         "{name}{path}: a Latin hypercube of {range}; {shown} in the scene"
                     );
@@ -108,7 +110,7 @@ impl Swept {
                 own.text(last),
             )
         };
-        let all = self.varied.variations.iter().zip(&self.varied.matched);
+        let all = self.variations.iter().zip(&self.matched);
         all.enumerate().map(line).collect()
     }
 }
@@ -194,18 +196,18 @@ fn quantile(rising: &[f64], share: f64) -> Option<f64> {
 }
 
 /// A limit on the measure of a column: `limit 250 g (EN 1078:2012)`.
-pub(super) fn limit(report: &SweepReport, column: usize, limit: &Limit) -> String {
+pub(super) fn limit(column: &Column, limit: &Limit) -> String {
     let kind = limit.key.rsplit_once('.').map_or("", |own| own.1);
-    let level = level(limit, kind, report.columns[column].unit);
+    let level = level(limit, kind, column.unit);
     let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
     let of_mean = if limit.of_mean { ", of the mean" } else { "" };
     format!("{} {level}{of_mean}{from}", limit.bound.word())
 }
 
 /// The level of a limit with its sign: `≤ 250 g`.
-pub(super) fn level_of(report: &SweepReport, column: usize, limit: &Limit) -> String {
+pub(super) fn level_of(column: &Column, limit: &Limit) -> String {
     let kind = limit.key.rsplit_once('.').map_or("", |own| own.1);
-    format!("{} {}", limit.bound.sign(), level(limit, kind, report.columns[column].unit))
+    format!("{} {}", limit.bound.sign(), level(limit, kind, column.unit))
 }
 
 /// A value of a parameter to four digits.
@@ -259,7 +261,7 @@ pub(super) fn warned(swept: &Swept) -> Vec<String> {
 /// How it was solved.
 pub(super) fn solving(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
-    let mut all = vec![solved(report, points)];
+    let mut all = vec![solved(report.instantiated, points)];
     if !report.checked.is_empty() {
         all.push(format!(
             "{} of them solved in full as well: the largest difference is {}",
@@ -287,8 +289,8 @@ fn means(swept: &Swept) -> impl Iterator<Item = String> {
     held.map(|own| format!("{}: {}", own.name, Remark::Mean(own.text.clone())))
 }
 
-fn solved(report: &SweepReport, points: usize) -> String {
-    match (report.instantiated, points - report.instantiated) {
+pub(super) fn solved(instantiated: usize, points: usize) -> String {
+    match (instantiated, points - instantiated) {
         (0, 1) => "1 point, solved in full".to_owned(),
         (0, full) => format!("{full} points, each solved in full"),
         (instantiated, 0) => {

@@ -1,0 +1,270 @@
+//! `--parquet`: a sweep that is written while it is solved, in files of so many points, each whole as soon as it is
+//! there. Nothing but the file at hand is held, and what is there already is not solved again.
+
+mod file;
+mod summary;
+
+use std::ops::Range;
+
+use dashpot_analysis::sweep::{
+    Column, Estimates, Grid, Pose, SweepOptions, points_of_shard, sweep_in_parts,
+};
+use dashpot_plot::Table;
+use dashpot_scene::Scene;
+use serde::Serialize;
+
+use self::{
+    file::Footer,
+    summary::{Counted, Summary},
+};
+use super::{
+    arguments::SweepArguments,
+    shards::{Place, ShardFault},
+    varied::Varied,
+    words::{limit, name, solved, unit},
+};
+use crate::{
+    error::{CliError, Status, unwritable},
+    folder::{Folder, RESULT},
+    input::title,
+    numbers::counted,
+    origin,
+    output::{Pairs, Study, Text, VERSION, emit, list, object},
+    progress::Bar,
+    said,
+    terminal::{Terminal, note},
+};
+
+/// Points of a file, whole groups of them: its rows are read at once, and some MB for each column are held meanwhile.
+const PART: usize = 1 << 18;
+/// Reasons why points have no solution, and kinds of warnings, that are told; all are in the result.
+const MOST_TOLD: usize = 8;
+/// Digits of the extremes.
+const DIGITS: usize = 4;
+
+/// What is solved.
+pub(super) struct Wanted<'w> {
+    pub(super) scene: &'w Scene,
+    pub(super) varied: &'w Varied,
+    pub(super) grid: &'w Grid,
+    pub(super) pose: &'w Pose<'w>,
+    pub(super) columns: &'w [Column],
+    pub(super) estimates: Estimates,
+    /// The hash of all on which its values depend.
+    pub(super) sweep: String,
+}
+
+/// Solves what is not there yet of a sweep, or of its shard.
+pub(super) fn written(
+    arguments: &SweepArguments,
+    wanted: &Wanted<'_>,
+    terminal: Terminal,
+) -> Result<Status, CliError> {
+    let Wanted { varied, grid, pose, columns, .. } = *wanted;
+    let all = match arguments.shard {
+        Some(place) => points_of_shard(grid.len(), place.number, place.of),
+        None => 0..grid.len(),
+    };
+    let starts = all.clone().step_by(PART);
+    let parts = list(starts.map(|start| start..all.end.min(start + PART)));
+    let names = parts.iter().map(file_name);
+    let Some(mut folder) = Folder::wanted(arguments.output.out.as_deref(), names)? else {
+        return Ok(Status::Done);
+    };
+    let there = there(&folder, &wanted.sweep)?;
+    let is_there = |part: &Range<usize>| there.iter().any(|own| own.points == *part);
+    let (known, missing): (Vec<_>, Vec<_>) = parts.into_iter().partition(is_there);
+    if !known.is_empty() {
+        let (known, of) = (known.len(), known.len() + missing.len());
+        note(&format!("{known} of {of} files are there, whole: they are not solved again"));
+    }
+    let limits = pose(&grid.places(0)).map_err(dashpot_analysis::sweep::SweepError::NotPosed)?;
+    let mut sum = Summary::default();
+    let mut sizes: Vec<(Range<usize>, Summary)> =
+        there.into_iter().map(|own| (own.points, own.summary)).collect();
+    if !missing.is_empty() {
+        let options = SweepOptions { threads: arguments.threads(), estimates: wanted.estimates };
+        let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
+        let mut show = |done: usize, of: usize| {
+            bar.show(done as f64 / of as f64, || format!("{done} of {of}"))
+        };
+        let take = |part: &Range<usize>, report| {
+            let footer = Footer::of(&wanted.sweep, part.clone(), &report);
+            let name = file_name(part);
+            let bytes = file::bytes((varied, grid), &footer, &report);
+            folder.keep(&name, &bytes.map_err(unwritable(&folder.path().join(&name)))?)?;
+            sizes.push((footer.points, footer.summary));
+            Ok::<_, CliError>(())
+        };
+        sweep_in_parts(grid, pose, columns, options, &missing, take, &mut show)?;
+    }
+    sizes.sort_by_key(|own| own.0.start);
+    let files = list(sizes.iter().map(|own| file_name(&own.0)));
+    sizes.into_iter().for_each(|own| sum.add(own.1));
+    let limits = limits.settings.limits.into_iter().filter_map(|own| {
+        let is_it = |column: &Column| !column.is_share && column.key == own.key;
+        Some((columns.iter().position(is_it)?, own))
+    });
+    let study = Parts {
+        asked: arguments.in_words(wanted.estimates),
+        place: arguments.shard,
+        limits: limits.collect(),
+        folder: folder.path().display().to_string(),
+        files,
+        sum,
+        wanted,
+    };
+    let object = serde_json::to_string_pretty(&study.object())? + "\n";
+    folder.keep(RESULT, object.as_bytes())?;
+    emit(&study, arguments.output.json, None, terminal)?;
+    Ok(study.status(arguments.enforce))
+}
+
+/// The name of the file of these points: of the first one, counted from 1.
+fn file_name(points: &Range<usize>) -> String {
+    format!("points-{:08}.parquet", points.start + 1)
+}
+
+/// What is there already, whole; a folder with anything else is refused.
+fn there(folder: &Folder, sweep: &str) -> Result<Vec<Footer>, CliError> {
+    let taken = || CliError::Shard { path: folder.path().to_owned(), fault: ShardFault::Taken };
+    let names = folder.whole()?.into_iter().filter(|own| own != RESULT);
+    let footers = names.map(|own| Footer::read(&folder.path().join(own)));
+    footers.map(|own| own.filter(|own| own.sweep == sweep).ok_or_else(taken)).collect()
+}
+
+/// The points that are there.
+struct Parts<'w> {
+    wanted: &'w Wanted<'w>,
+    /// What the command line asked for, in words.
+    asked: Vec<(&'static str, String)>,
+    place: Option<Place>,
+    limits: Vec<(usize, dashpot_analysis::Limit)>,
+    folder: String,
+    files: Vec<String>,
+    sum: Summary,
+}
+
+impl Parts<'_> {
+    fn status(&self, is_enforced: bool) -> Status {
+        let is_kept = self.sum.limits.iter().all(|own| own.pass == self.sum.points);
+        match (self.sum.unsolved() == self.sum.points && self.sum.points > 0, is_kept) {
+            (true, _) => Status::RunFailed,
+            (false, false) if is_enforced => Status::LimitNotKept,
+            (false, _) => Status::Done,
+        }
+    }
+
+    /// How many keep each limit.
+    fn kept(&self) -> impl Iterator<Item = String> {
+        self.limits.iter().zip(&self.sum.limits).map(|((column, own), kept)| {
+            let words = limit(&self.wanted.columns[*column], own);
+            let (pass, fail, of) = (kept.pass, kept.fail, self.sum.points);
+            let open = match kept.undecided {
+                0 => String::new(),
+                open => format!(", {open} undecided"),
+            };
+            format!("{} {words}: {pass} of {of} points pass, {fail} fail{open}", own.key)
+        })
+    }
+
+    /// What is said of some points, the rest counted.
+    fn told(&self, all: &[Counted], words: impl Fn(&Counted) -> String) -> Vec<String> {
+        let mut told = list(all.iter().take(MOST_TOLD).map(words));
+        if all.len() > MOST_TOLD {
+            told.push(format!("{} more are in {RESULT}", all.len() - MOST_TOLD));
+        }
+        told
+    }
+}
+
+impl Study for Parts<'_> {
+    fn text(&self, text: &mut Text) {
+        let (sum, columns) = (&self.sum, self.wanted.columns);
+        text.title(title(self.wanted.scene));
+        self.wanted.varied.in_words().iter().for_each(|own| text.faint(own));
+        text.blank();
+        if let Some(Place { number, of }) = self.place {
+            text.items([format!("shard {number} of {of}")]);
+        }
+        text.items([solved(sum.instantiated, sum.points)]);
+        text.items(self.kept());
+        text.items(sum.left_out.iter().map(summary::LeftOut::in_words));
+        text.items(self.told(&sum.failed, |own| {
+            format!("{} without a solution: {}", counted(own.points, "point"), own.text)
+        }));
+        text.items(self.told(&sum.warnings, |own| {
+            format!(
+                "warning `{}` at {}, at one of them: {}",
+                own.code,
+                counted(own.points, "point"),
+                own.text
+            )
+        }));
+        let rows = columns.iter().zip(&sum.extremes).map(|(column, own)| {
+            let text = |own: f64| unit(column, own).text(own, DIGITS);
+            let both = own.map_or(["–".to_owned(), "–".to_owned()], |own| own.map(text));
+            list([name(column)].into_iter().chain(both))
+        });
+        text.table(&Table::new("", &["measure", "lowest", "highest"], rows));
+        text.blank();
+        let files = counted(self.files.len(), "file");
+        text.faint(&format!("{files} of points as Parquet and {RESULT} are in {}", self.folder));
+    }
+
+    fn object(&self) -> impl Serialize {
+        let Wanted { scene, varied, columns, .. } = *self.wanted;
+        let parameters = varied.variations.iter().zip(&varied.matched).enumerate();
+        let parameters = list(parameters.map(|(at, (own, &tunable))| {
+            object! {
+                name: &own.name,
+                path: tunable.map(|at| &varied.tunables.all()[at].path),
+                unit: varied.unit(at),
+                count: own.len(),
+            }
+        }));
+        let measures = list(columns.iter().zip(&self.sum.extremes).map(|(column, own)| {
+            object! {
+                key: &column.key,
+                over_thickness: column.is_share,
+                unit: column.unit,
+                lowest: own.map(|own| own[0]),
+                highest: own.map(|own| own[1]),
+            }
+        }));
+        let limits = list(self.limits.iter().zip(&self.sum.limits).map(|((column, own), kept)| {
+            object! {
+                key: &own.key,
+                bound: own.bound.word(),
+                level: own.bound.level(),
+                from: &own.from,
+                of_mean: own.of_mean,
+                unit: columns[*column].unit,
+                points: kept,
+            }
+        }));
+        object! {
+            dashpot: VERSION,
+            title: &scene.title,
+            file: &scene.file,
+            sha256: origin::of_text(scene),
+            files: origin::of_files(scene),
+            sweep: &self.wanted.sweep,
+            listed: varied.is_of_rows(),
+            parameters,
+            asked: self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect::<Pairs<_, _>>(),
+            scene_warnings: said::warning_objects(scene),
+            scene_notes: said::note_objects(scene),
+            shard: self.place,
+            points: self.sum.points,
+            instantiated: self.sum.instantiated,
+            estimated: self.sum.estimated,
+            measures,
+            limits,
+            failed: &self.sum.failed,
+            warnings: &self.sum.warnings,
+            left_out: &self.sum.left_out,
+            parquet: &self.files,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! What is known of some points, and adds up.
+
+use dashpot_analysis::{
+    Judgement,
+    partial::Cost,
+    sweep::{PartialOfSweep, SweepReport},
+};
+use serde::{Deserialize, Serialize};
+
+use crate::{numbers::apart, output::list};
+
+/// What is known of some points.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Summary {
+    pub(super) points: usize,
+    /// How many of them were instantiated.
+    pub(super) instantiated: usize,
+    /// At how many of them errors were estimated by further solutions.
+    pub(super) estimated: usize,
+    /// Why some have no solution, and how many.
+    pub(super) failed: Vec<Counted>,
+    /// The lowest and the highest value of each measure; `None` where there is none.
+    pub(super) extremes: Vec<Option<[f64; 2]>>,
+    /// How many keep each limit.
+    pub(super) limits: Vec<Kept>,
+    /// What runs are warned of: by the code of each warning what it says at the first point.
+    pub(super) warnings: Vec<Counted>,
+    /// What was left out of all points, where the scene allows that.
+    pub(super) left_out: Option<LeftOut>,
+}
+
+/// What was left out, and by which part of its size that moves a measure at the most.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct LeftOut {
+    bound: f64,
+    effects: Vec<String>,
+    moves: f64,
+}
+
+impl LeftOut {
+    fn of(own: &PartialOfSweep) -> Self {
+        let effects = list(own.left_out.iter().map(|own| own.effect.to_string()));
+        Self { bound: own.bound, effects, moves: own.worst.as_ref().map_or(0.0, Cost::most) }
+    }
+
+    pub(super) fn in_words(&self) -> String {
+        let names =
+            if self.effects.is_empty() { "nothing".to_owned() } else { self.effects.join(", ") };
+        format!("left out everywhere: {names}; no measure moves by more than {}", apart(self.moves))
+    }
+}
+
+/// What is said of some points.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Counted {
+    /// What it is counted by.
+    pub(super) code: String,
+    pub(super) text: String,
+    pub(super) points: usize,
+}
+
+/// How many points keep a limit.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct Kept {
+    pub(super) pass: usize,
+    pub(super) fail: usize,
+    pub(super) undecided: usize,
+}
+
+impl Summary {
+    pub(super) fn of(report: &SweepReport) -> Self {
+        let failed = report.gaps.iter().filter(|own| own.column.is_none()).map(|own| {
+            let text = own.reason.clone();
+            Counted { code: text.clone(), text, points: 1 }
+        });
+        let warnings = report.warnings.iter().map(|own| {
+            let (code, text) = (own.warning.code().to_owned(), own.warning.to_string());
+            Counted { code, text, points: own.points.len() }
+        });
+        let extremes = |at: usize| {
+            let finite = report.column(at).filter(|own| own.is_finite());
+            finite.map(|own| [own, own]).reduce(widest)
+        };
+        let kept = |at: usize| {
+            let mut kept = Kept::default();
+            for own in report.judged(at).into_iter().flatten() {
+                *match own {
+                    Judgement::Pass => &mut kept.pass,
+                    Judgement::Fail => &mut kept.fail,
+                    Judgement::Undecided(_) => &mut kept.undecided,
+                } += 1;
+            }
+            kept
+        };
+        let mut own = Self {
+            points: report.points(),
+            instantiated: report.instantiated,
+            estimated: report.estimated,
+            extremes: list((0..report.columns.len()).map(extremes)),
+            limits: list((0..report.limits.len()).map(kept)),
+            left_out: report.partial.as_ref().map(LeftOut::of),
+            ..Self::default()
+        };
+        failed.for_each(|one| count(&mut own.failed, one));
+        warnings.for_each(|one| count(&mut own.warnings, one));
+        own
+    }
+
+    /// Adds what is known of further points.
+    pub(super) fn add(&mut self, other: Self) {
+        self.points += other.points;
+        self.instantiated += other.instantiated;
+        self.estimated += other.estimated;
+        self.extremes.resize(other.extremes.len(), None);
+        for (own, other) in self.extremes.iter_mut().zip(other.extremes) {
+            *own = own.iter().copied().chain(other).reduce(widest);
+        }
+        self.limits.resize(other.limits.len(), Kept::default());
+        for (own, other) in self.limits.iter_mut().zip(other.limits) {
+            own.pass += other.pass;
+            own.fail += other.fail;
+            own.undecided += other.undecided;
+        }
+        self.left_out = self.left_out.take().or(other.left_out);
+        other.failed.into_iter().for_each(|one| count(&mut self.failed, one));
+        other.warnings.into_iter().for_each(|one| count(&mut self.warnings, one));
+    }
+
+    /// How many points have no solution.
+    pub(super) fn unsolved(&self) -> usize {
+        self.failed.iter().map(|own| own.points).sum()
+    }
+}
+
+fn widest(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
+    [one[0].min(other[0]), one[1].max(other[1])]
+}
+
+fn count(all: &mut Vec<Counted>, own: Counted) {
+    match all.iter_mut().find(|known| known.code == own.code) {
+        Some(known) => known.points += own.points,
+        None => all.push(own),
+    }
+}

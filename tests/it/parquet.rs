@@ -1,0 +1,199 @@
+//! Sweeps written as Parquet while they are solved: the numbers of the table, in parts that come to the same whole
+//! after an interruption.
+
+use std::{collections::BTreeMap, fs, fs::File, path::Path};
+
+use parquet::{
+    file::reader::{FileReader, SerializedFileReader},
+    record::Field,
+};
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, run, said, text};
+
+/// A pad that slow drops leave whole, and fast ones press through; the fastest are beyond its law.
+const SCENE: &str = r#"
+[values]
+K = "50 kN/m"
+[nodes]
+head = { mass = "5 kg", velocity = "6 m/s" }
+[elements]
+pad = { between = ["head", "ground"], kelvin-voigt = { spring = "K", dashpot = "80 N s/m" }, thickness = "3 cm" }
+[run]
+duration = "40 ms"
+[limits]
+head.peak-acceleration = "120 g"
+"#;
+
+/// The headings and the cells of all rows of some files; blank where there is nothing.
+fn rows(files: &[String]) -> (Vec<String>, Vec<Vec<String>>) {
+    let (mut header, mut all) = (Vec::new(), Vec::new());
+    for file in files {
+        let reader = SerializedFileReader::new(File::open(file).unwrap()).unwrap();
+        assert_eq!(reader.metadata().num_row_groups(), 1);
+        for row in reader.get_row_iter(None).unwrap() {
+            let row = row.unwrap();
+            header = row.get_column_iter().map(|own| own.0.clone()).collect();
+            let cell = |own: &Field| match own {
+                Field::Double(value) => format!("{:016x}", value.to_bits()),
+                Field::Str(word) => word.clone(),
+                _ => String::new(),
+            };
+            all.push(row.get_column_iter().map(|own| cell(own.1)).collect());
+        }
+    }
+    (header, all)
+}
+
+fn parquet_files(folder: &Path) -> Vec<String> {
+    let all = fs::read_dir(folder).unwrap().map(|own| own.unwrap().path());
+    let own = all.filter(|own| own.extension().is_some_and(|end| end == "parquet"));
+    let mut own: Vec<String> = own.map(|own| text(&own).to_owned()).collect();
+    own.sort();
+    own
+}
+
+/// The table of the same sweep as CSV, its numbers by their bits.
+fn of_csv(csv: &str, is_of_words: impl Fn(&str) -> bool) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_reader(csv.as_bytes());
+    let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let cell = |(name, own): (&String, &str)| match own {
+        "" => String::new(),
+        own if is_of_words(name) => own.to_owned(),
+        own => format!("{:016x}", own.parse::<f64>().unwrap().to_bits()),
+    };
+    let rows = reader.records().map(|own| header.iter().zip(&own.unwrap()).map(cell).collect());
+    let rows = rows.collect();
+    (header, rows)
+}
+
+#[test]
+fn the_numbers_are_those_of_the_table_to_the_bit() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "soft.toml", SCENE);
+    let sweep = [
+        "sweep",
+        text(&scene),
+        "--vary",
+        "head.velocity=0.5..9 m/s,90",
+        "--vary",
+        "K=20,50,90 kN/m",
+    ];
+    let folder = room.path().join("points");
+    let written = run(&[&sweep[..], &["--parquet", "--out", text(&folder)]].concat());
+    assert_eq!(code(&written), 0, "{}", err(&written));
+    let (mut header, mut found) = rows(&parquet_files(&folder));
+    let table = run(&[&sweep[..], &["--table", "never"]].concat());
+    let is_limit = |name: &str| name.contains("<=");
+    let (mut wanted_header, mut wanted) =
+        of_csv(std::str::from_utf8(&table.stdout).unwrap(), |name| {
+            name == "warnings" || is_limit(name)
+        });
+    assert_eq!(header.pop().as_deref(), Some("missing"));
+    assert_eq!(header, wanted_header);
+    // The table has the numbers of the warnings, the files their codes.
+    let report = json(&[&sweep[..], &["--json"]].concat());
+    let codes: Vec<&str> = report["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|own| own["code"].as_str().unwrap())
+        .collect();
+    let told = |numbers: &str| {
+        let codes = numbers.split_whitespace().map(|own| codes[own.parse::<usize>().unwrap() - 1]);
+        codes.collect::<Vec<_>>().join("; ")
+    };
+    assert!(wanted_header.pop().is_some() && codes.len() > 1);
+    let mut missing = vec![Vec::new(); found.len()];
+    for gap in report["gaps"].as_array().unwrap() {
+        let word = |key: &str| gap[key].as_str().unwrap();
+        let point = usize::try_from(gap["point"].as_u64().unwrap()).unwrap();
+        missing[point].push(format!("{}: {}", word("measure"), word("reason")));
+    }
+    assert!(missing.iter().any(|own| !own.is_empty()));
+    for ((own, wanted), missing) in found.iter_mut().zip(&mut wanted).zip(&missing) {
+        assert_eq!(own.pop(), Some(missing.join("; ")));
+        let last = wanted.pop().unwrap();
+        wanted.push(told(&last));
+        assert_eq!(own, wanted);
+    }
+    assert_eq!(found.len(), 270);
+
+    // What is known of all points is what the report says of them.
+    let result: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("result.json")).unwrap()).unwrap();
+    assert_eq!(result["points"], 270);
+    assert_eq!(result["instantiated"], report["instantiated"]);
+    let mut counts = BTreeMap::new();
+    for own in report["limits"][0]["verdicts"].as_array().unwrap() {
+        *counts.entry(own.as_str().unwrap()).or_insert(0) += 1;
+    }
+    for (word, count) in counts {
+        assert_eq!(result["limits"][0]["points"][word], count, "{word}");
+    }
+    let values = report["measures"][0]["values"].as_array().unwrap();
+    let values = values.iter().map(|own| own.as_f64().unwrap());
+    assert_eq!(result["measures"][0]["highest"], values.fold(0.0, f64::max));
+    let enforced = run(&[&sweep[..], &["--parquet", "--enforce", "--out", text(&folder)]].concat());
+    assert_eq!(code(&enforced), 4, "{}", err(&enforced));
+}
+
+/// Three files, of which the middle one is taken away: it is solved again, to the byte, and the others are not touched.
+#[test]
+fn what_is_missing_is_solved_again_and_all_else_is_left() {
+    let room = TempDir::new().unwrap();
+    let sweep = [
+        "sweep",
+        "--vary",
+        "padding.maxwell.spring=5..80 MN/m,1000",
+        "--vary",
+        "padding.kelvin.dashpot=1..16 kN s/m,525",
+        "--measure",
+        "padding.peak-force",
+        "--estimate",
+        "off",
+        "--parquet",
+    ];
+    let folder = room.path().join("points");
+    let whole = [&sweep[..], &["--out", text(&folder)]].concat();
+    let written = run(&whole);
+    assert_eq!(code(&written), 0, "{}", err(&written));
+    let all = parquet_files(&folder);
+    let bytes = || all.iter().map(|own| fs::read(own).unwrap()).collect::<Vec<_>>();
+    let (before, times) =
+        (bytes(), all.iter().map(|own| fs::metadata(own).unwrap().modified().unwrap()));
+    let (times, result): (Vec<_>, _) =
+        (times.collect(), fs::read(folder.join("result.json")).unwrap());
+    assert_eq!(all.len(), 3);
+    fs::remove_file(&all[1]).unwrap();
+    let again = run(&whole);
+    assert_eq!(code(&again), 0, "{}", err(&again));
+    assert!(said(&again).contains("2 of 3 files are there, whole"), "{}", err(&again));
+    assert!(bytes() == before && fs::read(folder.join("result.json")).unwrap() == result);
+    assert_eq!(fs::metadata(&all[0]).unwrap().modified().unwrap(), times[0]);
+
+    // Another sweep is refused.
+    let other = run(&[&sweep[..3], &["--parquet", "--out", text(&folder)]].concat());
+    assert_eq!(code(&other), 2);
+    assert!(said(&other).contains("of another sweep"), "{}", err(&other));
+    // A file that is broken is named, and nothing is written over it.
+    fs::write(&all[2], &before[2][..5000]).unwrap();
+    let broken = run(&whole);
+    assert_eq!(code(&broken), 2);
+    assert!(said(&broken).contains(&all[2]), "{}", err(&broken));
+}
+
+#[test]
+fn the_files_of_shards_are_parts_of_the_whole() {
+    let room = TempDir::new().unwrap();
+    let sweep = ["sweep", "--vary", "head.velocity=5..10 m/s,300", "--parquet"];
+    let points = |name: &str, more: &[&str]| {
+        let folder = room.path().join(name);
+        let solved = run(&[&sweep[..], more, &["--out", text(&folder)]].concat());
+        assert_eq!(code(&solved), 0, "{}", err(&solved));
+        rows(&parquet_files(&folder)).1
+    };
+    let whole = points("whole", &[]);
+    assert_eq!(whole.len(), 300);
+    assert!([points("1", &["--shard", "1/2"]), points("2", &["--shard", "2/2"])].concat() == whole);
+}
