@@ -1,4 +1,5 @@
-"""Sweeps past one machine, on Dask: ``dashpot sweep --shard`` on the workers, ``dashpot merge`` where it is called.
+"""Work past one machine, on Dask: ``dashpot sweep --shard`` on the workers, ``dashpot merge`` where it is called; fits
+and designs of many scenes by `calls`.
 
     from dask.distributed import Client
     from dashpot.distributed import sweep
@@ -14,11 +15,11 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from ._scene import Scene
-from ._verbs import Sweep, _called, _values, call
+from ._verbs import Result, Sweep, _called, _values, call
 
 
 def sweep(
@@ -71,6 +72,41 @@ def sweep_to_parquet(
     return [file for job in jobs for file in sorted(pathlib.Path(job).glob("points-*.parquet"))]
 
 
+def calls(
+    client: Any,
+    jobs: Iterable[tuple[str, tuple[Any, ...], Mapping[str, Any]]],
+    *,
+    retries: int = 2,
+    progress: Callable[[int, int], object] | None = None,
+) -> list[Result]:
+    """Fits, designs and other verbs of many scenes, each with the result of `dashpot.call`, in the order of the jobs.
+
+    Args:
+        client: a ``dask.distributed.Client``.
+        jobs: of each the verb, its operands, and its options: ``("fit", (scene,), {"to": "drop-7.csv:head.acceleration"})``. Files have to
+            be seen by all workers, under the same names.
+        retries, progress: as of `sweep`.
+    """
+    asked = list(jobs)
+    futures = client.map(_call, asked, pure=False, retries=retries)
+    _told(futures, progress)
+    return client.gather(futures)
+
+
+def _call(job: tuple[str, tuple[Any, ...], Mapping[str, Any]]) -> Result:
+    verb, operands, options = job
+    return call(verb, *operands, **options)
+
+
+def _told(futures: list[Any], progress: Callable[[int, int], object] | None) -> None:
+    from dask.distributed import as_completed
+
+    for done, future in enumerate(as_completed(futures), 1):
+        future.result()
+        if progress is not None:
+            progress(done, len(futures))
+
+
 def _solve(
     client: Any,
     scene: Any,
@@ -83,8 +119,6 @@ def _solve(
     options: dict[str, Any],
 ) -> list[str]:
     """Solves what is not there yet; the folders of all shards."""
-    from dask.distributed import as_completed
-
     own = scene if isinstance(scene, Scene) else Scene(scene)
     home = pathlib.Path(folder).absolute()
     home.mkdir(parents=True, exist_ok=True)
@@ -97,10 +131,7 @@ def _solve(
     asked |= {"measure": measure, **options}
     jobs = [(str(text), str(home / f"shard-{at}"), f"{at}/{shards}", asked) for at in range(1, shards + 1)]
     futures = client.map(_shard, jobs, pure=False, retries=retries)
-    for done, future in enumerate(as_completed(futures), 1):
-        future.result()
-        if progress is not None:
-            progress(done, shards)
+    _told(futures, progress)
     return [job[1] for job in jobs]
 
 

@@ -11,7 +11,7 @@ KEY = "padding.peak-force"
 
 def test_a_cluster_gives_the_same_bits(tmp_path):
     distributed = pytest.importorskip("distributed")
-    from dashpot.distributed import sweep, sweep_to_parquet
+    from dashpot.distributed import calls, sweep, sweep_to_parquet
 
     grid = {"padding.maxwell.spring": np.geomspace(5e6, 8e7, 40), "head.velocity": np.linspace(2, 9, 10)}
     whole = dashpot.sweep("reference", grid, [KEY])
@@ -21,7 +21,10 @@ def test_a_cluster_gives_the_same_bits(tmp_path):
         found = sweep(client, "reference", grid, [KEY], progress=lambda *own: told.append(own), **asked)
         again = sweep(client, "reference", grid, [KEY], **asked)
         files = sweep_to_parquet(client, "reference", grid, [KEY], folder=tmp_path / "points", shards=2)
+        jobs = [("rheometer", ("reference:valox-pad",), {"test": test}) for test in ("creep", "relaxation")]
+        tested = calls(client, jobs)
     assert told[-1] == (5, 5) and len(told) == 5
+    assert tested == [dashpot.call(verb, *operands, **options) for verb, operands, options in jobs]
     assert [own.name for own in files] == ["points-00000001.parquet", "points-00000193.parquet"]
     for own in (found, again):
         assert (own[KEY] == whole[KEY]).all() and (own.error(KEY) == whole.error(KEY)).all()

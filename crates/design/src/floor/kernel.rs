@@ -23,6 +23,14 @@ impl Kernel {
         matches!(self, Self::Fixed { .. })
     }
 
+    /// `G` after this time \[s\].
+    pub(super) fn value(&self, time: f64) -> f64 {
+        match self {
+            Self::Fixed { mass } => time / mass,
+            Self::Moving(own) => own.value(time),
+        }
+    }
+
     /// `∫ |G|` from 0.
     pub(super) fn area(&self, time: f64) -> f64 {
         match self {

@@ -3,7 +3,11 @@
 use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
 
 use clap::{Args, ValueEnum};
-use dashpot_analysis::sweep::{Column, Estimates};
+use dashpot_analysis::{
+    Limit, RunError,
+    sweep::{Column, Estimates, ScenePoint},
+};
+use dashpot_scene::Posed;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -151,6 +155,24 @@ impl SweepArguments {
             (true, None) => files::names(varied, columns),
         };
         Folder::wanted(self.output.out.as_deref(), names)
+    }
+
+    /// A point with this scene, which has to keep `further` limits.
+    pub(super) fn scene_point(
+        &self,
+        posed: Posed,
+        further: &[Limit],
+    ) -> Result<ScenePoint, RunError> {
+        let method = match (&self.method, &posed.run.methods[..]) {
+            (Some(wanted), _) => wanted,
+            (None, [only]) => only,
+            _ => "auto",
+        };
+        let mut settings = posed.settings(method)?;
+        settings.budget = self.budget.unwrap_or(settings.budget);
+        Limit::add(&mut settings.limits, further.iter().cloned());
+        settings.accuracy.neglect_below = self.neglect.or(settings.accuracy.neglect_below);
+        Ok(ScenePoint { network: posed.network, settings })
     }
 
     pub(super) fn threads(&self) -> usize {

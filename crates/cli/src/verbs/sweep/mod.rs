@@ -19,10 +19,10 @@ mod words;
 use std::path::Path;
 
 use dashpot_analysis::{
-    Judgement, Limit, RunError,
+    Judgement,
     sweep::{
-        Column, Estimates, Grid, Pose, ScenePoint, Shard, SweepOptions, SweepReport, columns,
-        merge, points_of_shard, sweep as solve, sweep_shard,
+        Column, Estimates, Grid, Pose, Shard, SweepOptions, SweepReport, columns, merge,
+        points_of_shard, sweep as solve, sweep_shard,
     },
 };
 use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
@@ -79,18 +79,7 @@ fn solved_or_merged(
 ) -> Result<Status, CliError> {
     let Asked { input, set, scene, known, varied, grid } = Asked::read(arguments, terminal)?;
     let further = arguments.limits.beside(&scene.limits)?;
-    let scene_point = |posed: Posed| {
-        let method = match (&arguments.method, &posed.run.methods[..]) {
-            (Some(wanted), _) => wanted,
-            (None, [only]) => only,
-            _ => "auto",
-        };
-        let mut settings = posed.settings(method)?;
-        settings.budget = arguments.budget.unwrap_or(settings.budget);
-        Limit::add(&mut settings.limits, further.iter().cloned());
-        settings.accuracy.neglect_below = arguments.neglect.or(settings.accuracy.neglect_below);
-        Ok::<_, RunError>(ScenePoint { network: posed.network, settings })
-    };
+    let scene_point = |posed: Posed| arguments.scene_point(posed, &further);
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
     if arguments.enforce && scene.limits.is_empty() && further.is_empty() {
         return Err(CliError::NoLimits);
@@ -118,16 +107,9 @@ fn solved_or_merged(
     #[cfg(feature = "parquet")]
     if arguments.parquet {
         terminal.diagnose(&of_ends(of, (&input, &set), known)?);
-        let (scene, varied, grid) = (&scene, &varied, &grid);
-        let wanted = parts::Wanted {
-            scene,
-            varied,
-            grid,
-            pose: &at,
-            columns: &columns,
-            estimates,
-            sweep: hash,
-        };
+        let (scene, varied, grid, columns) = (&scene, &varied, &grid, &columns[..]);
+        let (pose, sweep): (&Pose<'_>, _) = (&at, hash);
+        let wanted = parts::Wanted { scene, varied, grid, pose, columns, estimates, sweep };
         return parts::written(arguments, &wanted, terminal);
     }
     if let Some(place) = arguments.shard
