@@ -5,6 +5,16 @@ from typing import Any
 import numpy as np
 
 class Measure:
+    def __init__(
+        self,
+        key: str,
+        value: float | None,
+        error: float | None,
+        unit: str,
+        time: float | None = None,
+        window: tuple[float, float] | None = None,
+        note: str | None = None,
+    ) -> None: ...
     @property
     def key(self) -> str: ...
     @property
@@ -30,6 +40,8 @@ class Report:
     def wall(self) -> float: ...
     @property
     def warnings(self) -> list[tuple[str, str]]: ...
+    @property
+    def new_warnings(self) -> list[tuple[str, str]]: ...
     def keys(self) -> list[str]: ...
     def measure(self, key: str) -> Measure: ...
     def json(self) -> str: ...
@@ -58,7 +70,7 @@ class Scene:
     def written(self, name: str, value: float) -> str: ...
     def solve(
         self,
-        method: str,
+        method: str | None = None,
         *,
         accuracy: float | None = None,
         neglect: float | None = None,
@@ -66,6 +78,9 @@ class Scene:
         estimate: bool = True,
         budget: int | None = None,
         measures: Sequence[str] = ...,
+        sample: int = 500,
+        seed: int = 1,
+        floor: bool = False,
         progress: Callable[[float], object] | None = None,
     ) -> Report: ...
 

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-_HERE = os.path.dirname(__file__)
+_HERE = os.path.join(os.path.dirname(__file__), "")
 
 
 class DashpotError(Exception):
@@ -50,9 +50,9 @@ class DashpotWarning(UserWarning):
 def warn(text: str, code: str | None) -> None:
     """Warns at the line outside of the package that led to it."""
     frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _HERE:
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_HERE):
         frame, level = frame.f_back, level + 1
-    warnings.warn(DashpotWarning(text, code), stacklevel=level - 1)
+    warnings.warn(DashpotWarning(text, code), stacklevel=level)
 
 
 def _text(fault: dict[str, Any]) -> str:

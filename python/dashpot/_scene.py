@@ -6,6 +6,7 @@ import json
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -57,8 +58,10 @@ class Scene:
         plain = _dashpot.Scene(text, file) if self._has_numbers() else None
         self._set = [(name, _written(plain, name, value)) for name, value in self._values.items()]
         self._own = _dashpot.Scene(text, file, self._set)
-        for own in self._own.said:
-            warn(own["message"], "scene")
+        self._said = self._own.said
+        for own in self._said:
+            if own["tone"] == "warning":
+                warn(own["message"], own["code"] or "scene")
 
     def _has_numbers(self) -> bool:
         return any(not isinstance(own, str) for own in self._values.values())
@@ -88,6 +91,16 @@ class Scene:
         return {name: (value, unit) for name, value, unit, _ in self._own.numbers()}
 
     @property
+    def warnings(self) -> list[tuple[str, str]]:
+        """What is odd about it, and which measures can have no value: code and text."""
+        return [(own["code"] or "scene", own["message"]) for own in self._said if own["tone"] == "warning"]
+
+    @property
+    def notes(self) -> list[tuple[str, str]]:
+        """What is to be said about its models besides: code and text."""
+        return [(own["code"], own["message"]) for own in self._said if own["tone"] == "note"]
+
+    @property
     def files(self) -> list[str]:
         """Other files that it reads."""
         return self._own.files
@@ -110,23 +123,28 @@ class Scene:
         estimate: bool = True,
         budget: int | None = None,
         measures: Iterable[str] = (),
+        sample: int = 500,
+        seed: int = 1,
+        floor: bool = False,
         progress: Progress | None = None,
     ) -> Report:
         """Solves it; as `dashpot.run`."""
-        if method is None:
-            named = self._own.methods
-            method = named[0] if len(named) == 1 else "auto"
-        report = self._own.solve(
-            method,
-            accuracy=accuracy,
-            neglect=neglect,
-            rtol=rtol,
-            estimate=estimate,
-            budget=budget,
-            measures=list(measures),
-            progress=progress,
-        )
-        return Report(self, report)
+        asked = {
+            "method": method,
+            "accuracy": accuracy,
+            "neglect": neglect,
+            "rtol": rtol,
+            "estimate": estimate,
+            "budget": budget,
+            "measures": list(measures),
+            "sample": sample,
+            "seed": seed,
+            "floor": floor,
+        }
+        own = self._own.solve(**asked, progress=progress)
+        for code, text in own.new_warnings:
+            warn(text, code)
+        return Report(self, own, asked)
 
 
 class Report(Mapping[str, Any]):
@@ -136,11 +154,16 @@ class Report(Mapping[str, Any]):
     has no value, ``value`` is ``None`` and ``note`` says why.
     """
 
-    def __init__(self, scene: Scene, own: Any) -> None:
+    def __init__(self, scene: Scene, own: Any, asked: Mapping[str, Any]) -> None:
         self.scene = scene
-        self._own = own
-        for code, text in own.warnings:
-            warn(text, code)
+        self._own, self._asked = own, asked
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        own = self._own
+        measures = [own.measure(key) for key in own.keys()]
+        of_run = (own.json(), own.method, own.end, own.wall, own.warnings)
+        told = _Told(self.scene, self._asked, measures, *of_run)
+        return Report, (self.scene, told, self._asked)
 
     def __getitem__(self, key: str) -> Any:
         return self._own.measure(key)
@@ -165,6 +188,11 @@ class Report(Mapping[str, Any]):
     def warnings(self) -> list[tuple[str, str]]:
         """Its warnings: code and text, the most important first."""
         return self._own.warnings
+
+    @property
+    def notes(self) -> list[tuple[str, str]]:
+        """What is to be said about the models of its scene: code and text."""
+        return self.scene.notes
 
     @cached_property
     def object(self) -> dict[str, Any]:
@@ -208,8 +236,44 @@ class Report(Mapping[str, Any]):
 
         rows = "".join(_row(self[key]) for key in self)
         told = "".join(f"<p><b>warning:</b> {_escaped(text)}</p>" for _, text in self.warnings)
+        told += "".join(f"<p>{_escaped(text)}</p>" for _, text in self.notes)
         head = "<tr><th>measure</th><th>value</th><th>error</th><th>unit</th><th>at [s]</th></tr>"
         return f"{told}{figure(self)}<table>{head}{rows}</table>"
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What was told of a run, as it is pickled. Its curves are solved for again, to the same bits, if they are asked
+    for.
+    """
+
+    scene: Scene
+    asked: Mapping[str, Any]
+    measures: list[Any]
+    text: str
+    method: str
+    end: float
+    wall: float
+    warnings: list[tuple[str, str]]
+
+    def keys(self) -> list[str]:
+        return [own.key for own in self.measures]
+
+    def measure(self, key: str) -> Any:
+        for own in self.measures:
+            if own.key == key:
+                return own
+        return self._again.measure(key)
+
+    def json(self) -> str:
+        return self.text
+
+    def outputs(self, times: list[float] | None, count: int) -> Any:
+        return self._again.outputs(times, count)
+
+    @cached_property
+    def _again(self) -> Any:
+        return self.scene._own.solve(**self.asked)
 
 
 def run(
@@ -230,6 +294,9 @@ def run(
         estimate: whether errors are estimated by further solutions.
         budget: most work, in units of a step of one unknown, some 30 ns.
         measures: keys of the measures that are told; all that the scene reports where none is named.
+        sample: so many designs are drawn where numbers of the scene have scatter; none with 0.
+        seed: which designs are drawn.
+        floor: tells in ``report.object["floor"]`` what no pad can beat.
         progress: is called with the share that is done, some 20 times a second.
 
     Raises:

@@ -8,7 +8,7 @@ import os
 import pathlib
 import tempfile
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -53,11 +53,21 @@ def call(
     Raises:
         SceneError, RunError: as the command ends with exit code 2 and 1.
     """
-    status, output, said = _called(verb, operands, {**options, "json": True}, progress)
-    return Result(json.loads(output), status, said)
+    status, output, said = _answer(verb, operands, {**options, "json": True}, progress)
+    found = json.loads(output)
+    _warn(verb, operands, said, found)
+    return Result(found, status, said)
 
 
 def _called(
+    verb: str, operands: tuple[Any, ...], options: Mapping[str, Any], progress: Progress | None
+) -> tuple[int, str, list[dict[str, Any]]]:
+    status, output, said = _answer(verb, operands, options, progress)
+    _warn(verb, operands, said, None)
+    return status, output, said
+
+
+def _answer(
     verb: str, operands: tuple[Any, ...], options: Mapping[str, Any], progress: Progress | None
 ) -> tuple[int, str, list[dict[str, Any]]]:
     texts: dict[str, str] = {}
@@ -70,10 +80,34 @@ def _called(
     errors = [own for own in said if own["tone"] == "error"]
     if status in (1, 2):
         raise (SceneError if status == 2 else RunError)(errors)
-    for own in said:
-        if own["tone"] == "warning":
-            warn(own["message"], verb)
     return status, output, said
+
+
+def _warn(verb: str, operands: tuple[Any, ...], said: list[dict[str, Any]], found: Any) -> None:
+    """Warns of what was said and no scene has been warned of, with the codes that the object has, or else the verb's
+    word."""
+    new = [own for own in said if own["tone"] == "warning"]
+    known = {text for own in operands if isinstance(own, Scene) for _, text in own.warnings} if new else set()
+    codes = dict(_codes(found)) if new else {}
+    for own in new:
+        # Before a warning may stand where it is.
+        of = [text for text in codes if own["message"].endswith(text)]
+        if own["message"] not in known:
+            warn(own["message"], own["code"] or (codes[max(of, key=len)] if of else verb))
+
+
+def _codes(found: Any) -> Iterator[tuple[str, str]]:
+    """The words of all warnings in an object, with their codes."""
+    if isinstance(found, Mapping):
+        if isinstance(found.get("code"), str) and isinstance(found.get("text"), str):
+            yield found["text"], found["code"]
+        for own in ("warning", "note"):
+            yield from zip(found.get(f"{own}s") or (), found.get(f"{own}_codes") or ())
+        for own in found.values():
+            yield from _codes(own)
+    elif isinstance(found, list) and found and isinstance(found[0], (Mapping, list)):
+        for own in found:
+            yield from _codes(own)
 
 
 def _operand(operand: Any, texts: dict[str, str]) -> str:

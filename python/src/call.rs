@@ -1,11 +1,30 @@
 //! The verbs of the command.
 
-use std::{collections::HashMap, ffi::OsString};
+use std::{
+    collections::HashMap,
+    ffi::OsString,
+    io,
+    panic::resume_unwind,
+    sync::{
+        Arc,
+        mpsc::{Receiver, RecvTimeoutError, channel},
+    },
+    thread::{self, JoinHandle},
+    time::Duration,
+};
 
 use dashpot_cli::{Called, Host};
 use pyo3::{prelude::*, types::PyList};
 
-use crate::{failure::listed, watch::Watcher};
+use crate::{
+    failure::listed,
+    watch::{Asking, PERIOD, Share},
+};
+
+/// What the command has for its stack as well \[B\].
+const STACK: usize = 8 << 20;
+/// So long work that is to end may take to notice.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// The version of the engine.
 #[pyfunction]
@@ -15,6 +34,8 @@ pub(crate) fn version() -> &'static str {
 
 /// Does what the command does with these arguments, which begin with the verb: the exit code, what it would have
 /// printed, and what it said besides. A name in `texts` stands for a file with that text.
+///
+/// The work has a thread of its own, so that an interrupt is heard whatever it is at.
 #[pyfunction]
 #[pyo3(signature = (arguments, texts, progress=None))]
 pub(crate) fn call(
@@ -23,13 +44,57 @@ pub(crate) fn call(
     texts: HashMap<String, String>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(u8, String, Bound<'_, PyList>)> {
-    let (mut watcher, raised) = Watcher::new(progress);
-    let Called { status, output, said } = py.detach(move || {
-        let host = Host { texts, watch: Box::new(move |share| watcher.look(share)) };
-        dashpot_cli::call(arguments.into_iter().map(OsString::from), host)
-    });
-    match raised.take() {
-        Some(error) => Err(error),
-        None => Ok((status, output, listed(py, &said)?)),
+    let asking = Asking::new(progress);
+    let Called { status, output, said } = py.detach(|| {
+        let share = Arc::new(Share::default());
+        let work = Work::begun(arguments, texts, Arc::clone(&share))?;
+        work.awaited(&share, &asking)
+    })?;
+    Ok((status, output, listed(py, &said)?))
+}
+
+/// A verb that is under way.
+struct Work {
+    thread: JoinHandle<()>,
+    called: Receiver<Called>,
+}
+
+impl Work {
+    fn begun(
+        arguments: Vec<String>,
+        texts: HashMap<String, String>,
+        share: Arc<Share>,
+    ) -> io::Result<Self> {
+        let (sender, called) = channel();
+        let thread = thread::Builder::new().name("dashpot".to_owned()).stack_size(STACK);
+        let thread = thread.spawn(move || {
+            let host = Host { texts, watch: Arc::new(move |own| share.tell(own)) };
+            let called = dashpot_cli::call(arguments.into_iter().map(OsString::from), host);
+            // Nobody waits for what has been left alone.
+            let _ = sender.send(called);
+        })?;
+        Ok(Self { thread, called })
+    }
+
+    /// What became of it. After an interrupt it has a while to end; what does not look up in that time is left alone,
+    /// and nobody hears of it any more.
+    fn awaited(self, share: &Share, asking: &Asking) -> PyResult<Called> {
+        loop {
+            match self.called.recv_timeout(PERIOD) {
+                Ok(called) => return Ok(called),
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(error) = asking.ask(share.most()) {
+                        share.end();
+                        let _ = self.called.recv_timeout(GRACE);
+                        return Err(error);
+                    }
+                }
+                // It has panicked, and so does what called it.
+                Err(RecvTimeoutError::Disconnected) => match self.thread.join() {
+                    Err(payload) => resume_unwind(payload),
+                    Ok(()) => return Ok(Called::default()),
+                },
+            }
+        }
     }
 }

@@ -30,6 +30,7 @@ pub(crate) fn listed<'py>(py: Python<'py>, said: &[Said]) -> PyResult<Bound<'py,
             Tone::Note => "note",
         };
         entry.set_item("tone", tone)?;
+        entry.set_item("code", own.code)?;
         entry.set_item("message", &own.message)?;
         entry.set_item("help", &own.help)?;
         entry.set_item("file", &own.file)?;
@@ -52,9 +53,7 @@ pub(crate) fn failure(py: Python<'_>, kind: Kind, said: &[Said]) -> PyErr {
 
 /// The same for one sentence.
 pub(crate) fn sentence(py: Python<'_>, kind: Kind, message: &str) -> PyErr {
-    let message = message.to_owned();
-    let said = Said { tone: Tone::Error, message, help: None, file: None, place: None };
-    failure(py, kind, &[said])
+    failure(py, kind, &[Said::plain(Tone::Error, message.to_owned())])
 }
 
 /// An array of `NumPy` with these values.

@@ -1,10 +1,14 @@
 //! What a run yields.
 
-use dashpot_analysis::{MeasureReport, RunReport, Warning, regular_times, table_at};
+use std::{borrow::Cow, sync::Arc};
+
+use dashpot_analysis::{MeasureReport, Warning, regular_times, table_at};
+use dashpot_cli::SceneRun;
+use dashpot_network::Assembly;
 use pyo3::{
     exceptions::PyKeyError,
     prelude::*,
-    types::{PyDict, PyTuple},
+    types::{PyDict, PyTuple, PyType},
 };
 
 use crate::failure::{Kind, array, sentence};
@@ -19,7 +23,7 @@ pub(crate) struct Measure {
     /// Its absolute error; `None` where it was not estimated.
     error: Option<f64>,
     /// Its SI unit.
-    unit: &'static str,
+    unit: Cow<'static, str>,
     /// When it occurs.
     time: Option<f64>,
     /// The part of the run that it belongs to.
@@ -28,8 +32,31 @@ pub(crate) struct Measure {
     note: Option<String>,
 }
 
+/// What a measure is made of.
+type Parts<'m> =
+    (&'m str, Option<f64>, Option<f64>, &'m str, Option<f64>, Option<(f64, f64)>, Option<&'m str>);
+
 #[pymethods]
 impl Measure {
+    #[new]
+    #[pyo3(signature = (key, value, error, unit, time=None, window=None, note=None))]
+    fn new(
+        key: String,
+        value: Option<f64>,
+        error: Option<f64>,
+        unit: String,
+        time: Option<f64>,
+        window: Option<(f64, f64)>,
+        note: Option<String>,
+    ) -> Self {
+        Self { key, value, error, unit: unit.into(), time, window, note }
+    }
+
+    fn __reduce__<'m>(own: &'m Bound<'_, Self>) -> (Bound<'m, PyType>, Parts<'m>) {
+        let Self { key, value, error, unit, time, window, note } = own.get();
+        (own.get_type(), (key, *value, *error, unit, *time, *window, note.as_deref()))
+    }
+
     fn __float__(&self, py: Python<'_>) -> PyResult<f64> {
         let why = || self.note.clone().unwrap_or_else(|| "it has no value".to_owned());
         self.value.ok_or_else(|| sentence(py, Kind::Run, &format!("`{}`: {}", self.key, why())))
@@ -48,7 +75,7 @@ impl From<&MeasureReport> for Measure {
             key: own.key.clone(),
             value: own.value,
             error: own.error.filter(|own| own.is_finite()),
-            unit: own.unit,
+            unit: own.unit.into(),
             time: own.time,
             window: own.window,
             note: own.note(),
@@ -58,12 +85,20 @@ impl From<&MeasureReport> for Measure {
 
 /// A run: its measures, warnings and curves.
 #[pyclass(frozen, module = "dashpot._dashpot")]
-pub(crate) struct Report(RunReport);
+pub(crate) struct Report {
+    run: SceneRun,
+    /// What the scene was compiled to, with what its own text has been warned of.
+    of_scene: Arc<Assembly>,
+}
 
 impl Report {
-    pub(crate) fn new(mut report: RunReport, only: Vec<String>) -> Self {
-        report.only = only;
-        Self(report)
+    pub(crate) fn new(run: SceneRun, of_scene: Arc<Assembly>) -> Self {
+        Self { run, of_scene }
+    }
+
+    fn told(&self, is_meant: impl Fn(&Warning) -> bool) -> Vec<(&'static str, String)> {
+        let warnings = self.run.report.warnings.iter().filter(|own| is_meant(own));
+        warnings.map(|own| (own.code(), own.to_string())).collect()
     }
 }
 
@@ -72,38 +107,44 @@ impl Report {
     /// The method that solved it.
     #[getter]
     fn method(&self) -> &'static str {
-        self.0.solver.method
+        self.run.report.solver.method
     }
 
     /// When it ended \[s\].
     #[getter]
     fn end(&self) -> f64 {
-        self.0.trajectory.t_end
+        self.run.report.energy.time
     }
 
     /// What the engine took for it by the clock \[s\].
     #[getter]
     fn wall(&self) -> f64 {
-        self.0.solver.wall_in_all.as_secs_f64()
+        self.run.report.solver.wall_in_all.as_secs_f64()
     }
 
     /// The keys of its measures.
     fn keys(&self) -> Vec<&str> {
-        self.0.told().map(|own| own.key.as_str()).collect()
+        self.run.report.told().map(|own| own.key.as_str()).collect()
     }
 
     /// The warnings, each with its code.
     #[getter]
-    fn warnings(&self) -> Vec<(String, String)> {
-        let pair = |own: &Warning| (own.code().to_string(), own.to_string());
-        self.0.warnings.iter().map(pair).collect()
+    fn warnings(&self) -> Vec<(&'static str, String)> {
+        self.told(|_| true)
+    }
+
+    /// Those that have not been told of the scene itself.
+    #[getter]
+    fn new_warnings(&self) -> Vec<(&'static str, String)> {
+        let known = &self.of_scene.warnings;
+        self.told(|own| !matches!(own, Warning::Network(own) if known.contains(own)))
     }
 
     /// The measure of this key.
     fn measure(&self, key: &str) -> PyResult<Measure> {
-        match self.0.measure(key) {
+        match self.run.report.measure(key) {
             Some(own) => Ok(own.into()),
-            None => Err(PyKeyError::new_err(match self.0.value(key) {
+            None => Err(PyKeyError::new_err(match self.run.report.value(key) {
                 Err(why) => why.to_string(),
                 Ok(_) => key.to_owned(),
             })),
@@ -112,7 +153,8 @@ impl Report {
 
     /// The object of the run, as `--json` has it among its runs.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
-        serde_json::to_string(&self.0).map_err(|error| sentence(py, Kind::Run, &error.to_string()))
+        serde_json::to_string(&self.run)
+            .map_err(|error| sentence(py, Kind::Run, &error.to_string()))
     }
 
     /// Outputs over time at `times` \[s\], or at so many regular ones: the times, and by the name of each output its SI
@@ -124,7 +166,7 @@ impl Report {
         times: Option<Vec<f64>>,
         count: usize,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let end = self.0.trajectory.t_end;
+        let end = self.run.report.trajectory.t_end;
         let times = times.unwrap_or_else(|| regular_times(end, count));
         let is_wrong = |pair: &[f64]| pair[0].is_nan() || pair[0] > pair[1];
         let is_beyond = times.iter().any(|own| !(0.0..=end).contains(own));
@@ -132,7 +174,8 @@ impl Report {
             let message = format!("times have to rise, from 0 to the end of the run, {end} s");
             return Err(sentence(py, Kind::Input, &message));
         }
-        let table = py.detach(|| table_at(&self.0.assembly, &self.0.trajectory, times));
+        let table =
+            py.detach(|| table_at(&self.run.report.assembly, &self.run.report.trajectory, times));
         let columns = PyDict::new(py);
         for own in table.columns {
             columns.set_item(own.name, (own.unit, array(py, &own.values)?))?;

@@ -5,10 +5,8 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use dashpot_analysis::{RunError, solve_partial};
-use dashpot_cli::{RunOptions, Said, failed, open, read_scene};
-use dashpot_network::Assembly;
-use dashpot_network::parameters::Dimension;
+use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, open, read_scene};
+use dashpot_network::{Assembly, parameters::Dimension};
 use dashpot_scene::Tunables;
 use dashpot_units::si_unit;
 use pyo3::{prelude::*, types::PyList};
@@ -16,8 +14,11 @@ use pyo3::{prelude::*, types::PyList};
 use crate::{
     failure::{Kind, failure, listed, sentence},
     report::Report,
-    watch::{OfRun, Watcher},
+    watch::{Asking, OfRun},
 };
+
+/// Where nothing says which method.
+const AUTO: &str = "auto";
 
 /// The name of the file and the text of a scene: a file, or a built-in scene.
 #[pyfunction]
@@ -30,7 +31,7 @@ pub(crate) fn opened(py: Python<'_>, path: PathBuf) -> PyResult<(String, String)
 pub(crate) struct Scene {
     read: dashpot_scene::Scene,
     assembly: Arc<Assembly>,
-    /// What is odd about its text.
+    /// What is to be said about it.
     said: Vec<Said>,
     /// What was set in place of what it says.
     set: Vec<(String, String)>,
@@ -83,7 +84,7 @@ impl Scene {
         self.read.run.methods.iter().map(ToString::to_string).collect()
     }
 
-    /// What is odd about its text, as dictionaries.
+    /// What is to be said about it, as dictionaries: warnings and notes.
     #[getter]
     fn said<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         listed(py, &self.said)
@@ -120,43 +121,43 @@ impl Scene {
         Ok(format!("{value:?}{unit}"))
     }
 
-    /// Solves it by the method of this name.
-    #[pyo3(signature = (method, *, accuracy=None, neglect=None, rtol=None, estimate=true, budget=None, measures=Vec::new(), progress=None))]
+    /// Solves it by the method of this name, or by the one that it names, or else by what suits.
+    #[pyo3(signature = (method=None, *, accuracy=None, neglect=None, rtol=None, estimate=true, budget=None, measures=Vec::new(), sample=500, seed=1, floor=false, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "each is an argument of Python, by its name")]
     fn solve(
         &self,
         py: Python<'_>,
-        method: &str,
+        method: Option<&str>,
         accuracy: Option<f64>,
         neglect: Option<f64>,
         rtol: Option<f64>,
         estimate: bool,
         budget: Option<u64>,
         measures: Vec<String>,
+        sample: usize,
+        seed: u64,
+        floor: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Report> {
-        let without_errors = !estimate;
-        let options = RunOptions { accuracy, neglect, rtol, without_errors, budget, measures };
-        let settings = options.settings(&self.read, method);
-        let settings = settings.map_err(|error| refused(py, error))?;
-        let (watcher, raised) = Watcher::new(progress);
-        let solved = py.detach(|| {
-            let mut observer = OfRun(watcher, settings.duration);
-            solve_partial(&self.read.network, &self.assembly, &settings, &mut observer)
+        let method = method.unwrap_or(match &self.read.run.methods[..] {
+            [own] => own,
+            _ => AUTO,
         });
-        if let Some(error) = raised.take() {
+        let (without_errors, sample) = (!estimate, ScatterArguments::new(sample, seed));
+        let options =
+            RunOptions { accuracy, neglect, rtol, without_errors, budget, measures, sample, floor };
+        let mut observer = OfRun::new(Asking::new(progress), self.read.run.duration);
+        let (scene, asked) = ((&self.read, &self.assembly), (&options, method));
+        let solved = py.detach(|| SceneRun::of(scene, &self.set, asked, &mut observer));
+        if let Some(error) = observer.raised {
             return Err(error);
         }
-        solved
-            .map(|report| Report::new(report, options.measures))
-            .map_err(|error| refused(py, error))
+        let solved = solved.map_err(|(status, said)| {
+            // What is wrong with the scene is wrong input.
+            failure(py, if status == 2 { Kind::Input } else { Kind::Run }, &said)
+        })?;
+        Ok(Report::new(solved, Arc::clone(&self.assembly)))
     }
-}
-
-/// Why a run failed; what is wrong with its scene is wrong input.
-fn refused(py: Python<'_>, error: RunError) -> PyErr {
-    let (status, said) = failed(error);
-    failure(py, if status == 2 { Kind::Input } else { Kind::Run }, &said)
 }
 
 impl Scene {

@@ -24,6 +24,7 @@ use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
 use crate::{
+    host,
     numbers::constant,
     verbs::{
         run::stated,
@@ -224,6 +225,9 @@ pub(crate) enum CliError {
     /// A figure that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// The program that calls has asked the work to end.
+    #[error("{}", host::ENDED)]
+    Ended,
     /// Results that cannot be written as JSON.
     #[error("the results cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
@@ -280,13 +284,14 @@ impl CliError {
                 }
                 _ => Status::RunFailed,
             },
-            Self::Vibration(VibrationError::Unbounded { .. })
+            Self::Vibration(VibrationError::Unbounded { .. } | VibrationError::Cancelled)
             | Self::Undecided { .. }
             | Self::Busy { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)
             | Self::Thesis(_)
             | Self::Plot(_)
+            | Self::Ended
             | Self::Json(_) => Status::RunFailed,
             _ => Status::InputWrong,
         }

@@ -1,12 +1,12 @@
 //! The command called by a program in place of a shell: what it reads and says stays in memory.
 
 use std::{
-    cell::RefCell, collections::HashMap, env, ffi::OsString, iter::once, mem::replace,
-    ops::ControlFlow, path::Path,
+    cell::RefCell, collections::HashMap, env, ffi::OsString, iter::once, ops::ControlFlow,
+    path::Path, sync::Arc,
 };
 
 use clap::Parser;
-use dashpot_analysis::RunError;
+use dashpot_network::NetworkWarning;
 use dashpot_scene::{Diagnostic, Diagnostics, ReadOptions, Scene, Severity, read};
 
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
     error::{CliError, Status},
     input::{Input, load},
     terminal::Terminal,
-    verbs::Arguments,
+    verbs::{Arguments, undefined},
 };
 
 thread_local! {
@@ -22,8 +22,13 @@ thread_local! {
     static HOSTED: RefCell<Option<Hosted>> = const { RefCell::new(None) };
 }
 
-/// Is told which share of long work is done, 0 … 1; `Break` ends it.
-pub type Watch = Box<dyn FnMut(f64) -> ControlFlow<()>>;
+/// The code of a measure that can have no value.
+const UNDEFINED: &str = "undefined-measure";
+/// What is said of work that a program ended.
+pub(crate) const ENDED: &str = "it was asked to end";
+
+/// Is told by any thread which share of long work is done, 0 … 1; `Break` ends it.
+pub type Watch = Arc<dyn Fn(f64) -> ControlFlow<()> + Send + Sync>;
 
 /// What calls the command.
 pub struct Host {
@@ -49,6 +54,8 @@ pub struct Called {
 pub struct Said {
     /// How bad it is.
     pub tone: Tone,
+    /// What kind of thing it is, in one word that stays the same, where it has one.
+    pub code: Option<&'static str>,
     /// What it is, in one sentence.
     pub message: String,
     /// What to do.
@@ -74,6 +81,7 @@ impl From<&Diagnostic> for Said {
     fn from(own: &Diagnostic) -> Self {
         Self {
             tone: if own.severity == Severity::Error { Tone::Error } else { Tone::Warning },
+            code: None,
             message: own.message(),
             help: own.help(),
             file: own.file().map(str::to_owned),
@@ -83,24 +91,21 @@ impl From<&Diagnostic> for Said {
 }
 
 impl Said {
-    fn all(error: &CliError) -> Vec<Self> {
+    /// What an error says.
+    pub(crate) fn all(error: &CliError) -> Vec<Self> {
         match error {
             CliError::Scene(diagnostics) => diagnostics.list.iter().map(Self::from).collect(),
-            error => vec![Self {
-                tone: Tone::Error,
-                message: error.to_string(),
-                help: error.help(),
-                file: None,
-                place: None,
-            }],
+            error => {
+                let help = error.help();
+                vec![Self { help, ..Self::plain(Tone::Error, error.to_string()) }]
+            }
         }
     }
-}
 
-/// Why a run failed, and the exit code of that.
-pub fn failed(error: RunError) -> (u8, Vec<Said>) {
-    let error = CliError::Run(error);
-    (error.status() as u8, Said::all(&error))
+    /// A sentence about no place.
+    pub fn plain(tone: Tone, message: String) -> Self {
+        Self { tone, code: None, message, help: None, file: None, place: None }
+    }
 }
 
 /// The name of the file and the text of a scene: a file, or a built-in scene.
@@ -114,7 +119,8 @@ pub fn open(path: &Path) -> Result<(String, String), Vec<Said>> {
     Ok((input.file, text))
 }
 
-/// The scene of a text with the values `set` in place of its own, as the command reads it; and what is odd about it.
+/// The scene of a text with the values `set` in place of its own, as the command reads it; and what is to be said about
+/// it: what is odd about its text, measures that can have no value, and notes on its models.
 ///
 /// # Errors
 ///
@@ -124,9 +130,21 @@ pub fn read_scene(
     file: Option<&str>,
     set: &[(String, String)],
 ) -> Result<(Scene, Vec<Said>), Vec<Said>> {
-    let all = |found: Diagnostics| found.list.iter().map(Said::from).collect();
+    let all = |found: Diagnostics| -> Vec<Said> { found.list.iter().map(Said::from).collect() };
     let read = read(text, &ReadOptions { file, set, loader: Some(&load) }).map_err(all)?;
-    Ok((read.value, all(read.warnings)))
+    let (scene, mut said) = (read.value, all(read.warnings));
+    for own in &mut said {
+        let known = scene.assembly.warnings.iter().find(|known| known.to_string() == own.message);
+        own.code = known.map(NetworkWarning::code);
+    }
+    let undefined = undefined(&scene).unwrap_or_default().into_iter();
+    let code = Some(UNDEFINED);
+    said.extend(undefined.map(|own| Said { code, ..Said::plain(Tone::Warning, own) }));
+    said.extend(scene.notes.iter().map(|own| {
+        let (code, text) = (Some(own.what.code()), format!("{}: {}", own.subject, own.what));
+        Said { code, ..Said::plain(Tone::Note, text) }
+    }));
+    Ok((scene, said))
 }
 
 struct Hosted {
@@ -141,11 +159,11 @@ struct Hosted {
 /// # Examples
 ///
 /// ```
-/// use std::{collections::HashMap, ops::ControlFlow};
+/// use std::{collections::HashMap, ops::ControlFlow, sync::Arc};
 ///
 /// use dashpot_cli::{Host, call};
 ///
-/// let host = Host { texts: HashMap::new(), watch: Box::new(|_| ControlFlow::Continue(())) };
+/// let host = Host { texts: HashMap::new(), watch: Arc::new(|_| ControlFlow::Continue(())) };
 /// let called = call(["list".into(), "methods".into()], host);
 /// assert_eq!((called.status, called.output.contains("exact")), (0, true));
 /// ```
@@ -204,8 +222,8 @@ pub(crate) fn printed(text: &str) -> bool {
 
 /// Keeps what is said, where a program calls.
 pub(crate) fn said(tone: Tone, message: &str, help: Option<String>) -> bool {
-    let message = message.to_owned();
-    told(|called| called.said.push(Said { tone, message, help, file: None, place: None }))
+    let own = Said { help, ..Said::plain(tone, message.to_owned()) };
+    told(|called| called.said.push(own))
 }
 
 /// Keeps what is said of a text, where a program calls.
@@ -218,14 +236,18 @@ fn told(tell: impl FnOnce(&mut Called)) -> bool {
     HOSTED.with_borrow_mut(|own| own.as_mut().map(|own| tell(&mut own.called)).is_some())
 }
 
+/// What watches the work of this thread, where a program calls.
+pub(crate) fn watch() -> Option<Watch> {
+    HOSTED.with_borrow(|own| own.as_ref().map(|own| Arc::clone(&own.host.watch)))
+}
+
 /// What a program that calls says to the share that is done; `None` where none does.
 pub(crate) fn progress(share: f64) -> Option<ControlFlow<()>> {
-    let silent: Watch = Box::new(|_| ControlFlow::Continue(()));
-    let place =
-        |watch| HOSTED.with_borrow_mut(|own| Some(replace(&mut own.as_mut()?.host.watch, watch)));
     // It may call in turn, so nothing is borrowed meanwhile.
-    let mut watch = place(silent)?;
-    let answer = watch(share);
-    place(watch);
-    Some(answer)
+    watch().map(|watch| watch(share))
+}
+
+/// Whether a program that calls has ended the work.
+pub(crate) fn has_ended() -> bool {
+    progress(0.0).is_some_and(|own| own.is_break())
 }

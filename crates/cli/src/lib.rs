@@ -30,10 +30,10 @@ use std::{io::ErrorKind, process::ExitCode};
 
 use clap::Parser;
 
-pub use host::{Called, Host, Said, Tone, Watch, call, failed, open, read_scene};
+pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
 pub use input::load;
 pub use sketch::drawing;
-pub use verbs::run::RunOptions;
+pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 
 use error::{CliError, Status};
 use terminal::Terminal;

@@ -63,6 +63,11 @@ impl Bar {
 }
 
 impl Bar {
+    /// Shows that `done` of so many are done.
+    pub(crate) fn count(&mut self, done: usize, of: usize) -> ControlFlow<()> {
+        self.show(done as f64 / of as f64, || format!("{done} of {of}"))
+    }
+
     /// Whether a line is due after so long.
     fn is_due(&mut self, elapsed: Duration) -> bool {
         let is_due = elapsed > self.next;

@@ -90,7 +90,7 @@ impl Scene {
     ///
     /// [`RunError::UnknownMethod`].
     pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
-        Posed::from(self.clone()).settings(method)
+        asked(&self.run, &self.accuracy, (&self.measures, &self.limits), method)
     }
 
     /// Adds limits to its own, and to its notes what is to be said about elements that they are on.
@@ -124,18 +124,7 @@ impl Posed {
     ///
     /// [`RunError::UnknownMethod`].
     pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
-        Ok(SolveSettings {
-            method: Choice::named(method)?,
-            duration: self.run.duration,
-            is_duration_found: self.run.at_most.is_some(),
-            rtol: self.run.rtol,
-            accuracy: self.accuracy.clone(),
-            estimate: true,
-            stops: self.run.stops.clone(),
-            budget: SolveSettings::BUDGET,
-            measures: self.measures.clone(),
-            limits: self.limits.clone(),
-        })
+        asked(&self.run, &self.accuracy, (&self.measures, &self.limits), method)
     }
 
     /// Whether it is the same to a solver as another scene: in its network, its run, and what is asked of that. Named
@@ -144,6 +133,27 @@ impl Posed {
         // What is printed of numbers tells them apart to the bit.
         format!("{self:?}") == format!("{other:?}")
     }
+}
+
+/// What a scene asks of a run by the method of this name.
+fn asked(
+    run: &RunSettings,
+    accuracy: &Accuracy,
+    (measures, limits): (&[MeasureWish], &[Limit]),
+    method: &str,
+) -> Result<SolveSettings, RunError> {
+    Ok(SolveSettings {
+        method: Choice::named(method)?,
+        duration: run.duration,
+        is_duration_found: run.at_most.is_some(),
+        rtol: run.rtol,
+        accuracy: accuracy.clone(),
+        estimate: true,
+        stops: run.stops.clone(),
+        budget: SolveSettings::BUDGET,
+        measures: measures.to_vec(),
+        limits: limits.to_vec(),
+    })
 }
 
 impl From<Scene> for Posed {

@@ -11,13 +11,15 @@ use serde_json::Value;
 
 use super::{OUTDATED, is_update, root, text};
 
+/// The package for Python, which nothing else depends on.
+const PYTHON: &str = "dashpot-python";
 const PAGE: &str = "THIRD-PARTY.md";
 const HEAD: &str = "\
 # Third parties
 
-The program and the libraries are built with these crates from crates.io, under the licences named. Each package has
-the full text of its own. Made by `UPDATE_DOCS=1 cargo test docs::third_party`; `cargo deny check` (`deny.toml`)
-refuses any other licence.
+The program, the libraries and the package for Python are built with these crates from crates.io, under the licences
+named. Each crate has the full text of its own. Made by `UPDATE_DOCS=1 cargo test docs::third_party`; `cargo deny
+check` (`deny.toml`) refuses any other licence.
 ";
 
 /// Packages that are built in, by licence: those that normal dependencies lead to, on any platform.
@@ -31,7 +33,10 @@ fn packages() -> BTreeMap<String, BTreeSet<String>> {
     let nodes = metadata["resolve"]["nodes"].as_array().unwrap();
     let dependencies: BTreeMap<&str, &Value> =
         nodes.iter().map(|node| (node["id"].as_str().unwrap(), &node["deps"])).collect();
-    let mut open = vec![metadata["resolve"]["root"].as_str().unwrap()];
+    let packages = metadata["packages"].as_array().unwrap().iter();
+    let python = packages.clone().find(|package| package["name"] == PYTHON).unwrap();
+    let roots = [&metadata["resolve"]["root"], &python["id"]];
+    let mut open: Vec<&str> = roots.iter().map(|own| own.as_str().unwrap()).collect();
     let mut found = BTreeSet::new();
     while let Some(id) = open.pop() {
         if !found.insert(id) {
@@ -45,7 +50,6 @@ fn packages() -> BTreeMap<String, BTreeSet<String>> {
         }
     }
     let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let packages = metadata["packages"].as_array().unwrap().iter();
     for own in packages.filter(|package| found.contains(package["id"].as_str().unwrap())) {
         // Those of the workspace have no source.
         if own["source"].is_null() {

@@ -8,17 +8,18 @@ use dashpot_dae::{
 };
 use dashpot_network::Assembly;
 
-use crate::report::curves::Curves;
+use crate::report::curves::{Curves, Struck};
 
-/// The curves of a run to `t_end` \[s\], by the method of the measures at their tolerance, or by another one that gets
+/// What is `struck`, and the curves of a run to `t_end` \[s\], by the method of the measures at their tolerance, or by another one that gets
 /// through. None are kept where there is none.
 pub(super) fn curves(
     assembly: &Arc<Assembly>,
     (t_end, rtol, budget): (f64, f64, u64),
+    struck: Struck,
     shell: impl Fn() -> Trajectory + Send + Sync + 'static,
 ) -> Curves {
     let assembly = Arc::clone(assembly);
-    Curves::later(move || {
+    let maker = move || {
         let methods: [&dyn Method; 3] = [&methods::Dop853, &methods::Bdf, &methods::Esdirk34];
         let solved = |method: &dyn Method| {
             let phased = assembly.switching.as_deref()?;
@@ -26,7 +27,8 @@ pub(super) fn curves(
             switching::integrate(method, phased, &run, &mut Silent).ok()
         };
         methods.into_iter().find_map(solved).unwrap_or_else(&shell)
-    })
+    };
+    Curves::later(maker, Some(struck))
 }
 
 /// A trajectory that tells what has switched, and keeps nothing else.

@@ -19,7 +19,7 @@ mod told;
 
 use std::{sync::Arc, time::Instant};
 
-use dashpot_dae::{Budget, Observer, Progress, SolveError, Statistics};
+use dashpot_dae::{Budget, Extremum, Observer, Progress, SolveError, Statistics};
 use dashpot_network::{Assembly, Instance, Network};
 use dashpot_numerics::small::dot;
 
@@ -31,7 +31,7 @@ use self::{
     stepped::{Course, Stepped},
     told::{Ledgers, Told},
 };
-use crate::{RunError, RunReport, SolveSettings};
+use crate::{RunError, RunReport, SolveSettings, report::curves::Struck};
 
 /// The largest number of unknowns that are instantiated.
 pub(crate) const MOST_STATES: usize = 12;
@@ -128,12 +128,20 @@ fn solved<const N: usize>(scene: &Scene<'_>) -> Option<Told> {
     let mut statistics = course.track.work;
     added(&mut statistics, &after.track.work);
     statistics.wall = begin.elapsed().saturating_sub(work.wall);
+    let at = |own: Extremum| Extremum { time: scene.fall + own.time * time, ..own };
     let (strongest, deepest) = (course.strongest, course.deepest);
+    let struck = Struck {
+        element: parametric.element(),
+        strongest: at(strongest),
+        deepest: at(deepest),
+        leaves: flight.speed,
+    };
     let told = Told {
         values,
         errors,
         rtol,
-        at: [strongest.time, deepest.time, course.release].map(|own| scene.fall + own * time),
+        struck,
+        release,
         windows: scene.windows(&course),
         size_of_work: 0.5 * strongest.value * deepest.value,
         energy: Ledgers { after_impact, at_end },

@@ -10,7 +10,10 @@ use crate::{
     Contact, ContactReport, Impact, Ledger, MeasureReport, Reading, RunReport, SolverReport,
     SystemReport,
     errors::instants::Instants,
-    report::compression::{Compression, ROUNDING},
+    report::{
+        compression::{Compression, ROUNDING},
+        curves::Struck,
+    },
     run::{events, outcome::measure_report},
 };
 
@@ -30,8 +33,10 @@ pub(super) struct Told {
     /// … and how far off each may be; not numbers where nobody asked.
     pub(super) errors: Vec<f64>,
     pub(super) rtol: f64,
-    /// When the force is largest, the deformation, and when the force falls through zero \[s\].
-    pub(super) at: [f64; 3],
+    /// What is struck, and how.
+    pub(super) struck: Struck,
+    /// When the force falls through zero \[s\].
+    pub(super) release: f64,
     /// The intervals of criteria that look for one \[s\].
     pub(super) windows: Vec<Option<(f64, f64)>>,
     /// What a spring of this peak force and deformation takes up \[J\].
@@ -57,7 +62,7 @@ impl Told {
         let is_closed = [after_impact, at_end].iter().all(|own| own.closure().abs() <= most);
         let deepest = scene.shown.iter().position(|own| *own == Shown::Depth);
         let is_through = deepest.is_some_and(|at| {
-            let own = [self.values[at], self.at[1]];
+            let own = [self.values[at], self.struck.deepest.time];
             Compression::new(own, Some(self.errors[at]), scene.scales.thickness).is_through()
         });
         is_closed && !is_through && self.values.iter().all(|value| value.is_finite())
@@ -69,7 +74,7 @@ impl Told {
         let measures = self.measures(scene);
         let impact = Impact {
             start: scene.fall,
-            end: self.at[2],
+            end: self.release,
             end_error: None,
             contact: Contact::Parted,
         };
@@ -114,13 +119,17 @@ impl Told {
             warnings: Vec::new(),
             limits: settings.limits.clone(),
             scatter: None,
-            trajectory: later::curves(assembly, (end, self.rtol, settings.budget), shell),
+            trajectory: {
+                let how = (end, self.rtol, settings.budget);
+                later::curves(assembly, how, self.struck, shell)
+            },
             assembly: Arc::clone(assembly),
         }
     }
 
     fn measures(&self, scene: &Scene<'_>) -> Vec<MeasureReport> {
-        let [strongest, deepest, release] = self.at;
+        let Struck { strongest, deepest, .. } = self.struck;
+        let (strongest, deepest, release) = (strongest.time, deepest.time, self.release);
         let impact = (scene.fall, release);
         let report = |at: usize| {
             let (entry, shown) = (&scene.selected[at], scene.shown[at]);
@@ -165,7 +174,7 @@ impl Told {
             worked: 0.0,
         };
         let touch = (0..parts.len()).filter(|_| first == 0).map(|at| switch(at, scene.fall, 1));
-        let release = (0..parts.len()).map(|at| switch(at, self.at[2], 0));
+        let release = (0..parts.len()).map(|at| switch(at, self.release, 0));
         (vec![(first, 0.0); parts.len()], touch.chain(release).collect())
     }
 }

@@ -1,9 +1,6 @@
 //! How far something is pressed in over a whole run.
 
-use dashpot_network::parameters::Kind as _;
-
 use super::RunReport;
-use crate::measures::PeakDeformation;
 
 impl RunReport {
     /// The largest value \[m\] of a deformation, by its number among the outputs; not a number where it is not kept.
@@ -23,16 +20,12 @@ impl RunReport {
     /// The same where it is known without curves: they are yet to be made, and it is the deformation of the one element
     /// that is struck.
     fn deepest_struck(&self, deformation: usize) -> Option<f64> {
-        if !self.trajectory.are_to_come() {
-            return None;
-        }
-        let [contact] = &self.contacts[..] else { return None };
-        let struck = self.assembly.connection(&contact.element)?.deformation;
+        let own = self.trajectory.to_come()?;
+        let struck = self.assembly.connections[own.element].deformation;
         let [one, other] = [struck, deformation].map(|own| self.assembly.system.outputs.at(own));
         let is_it = one.scale.to_bits() == other.scale.to_bits()
             && one.unknowns == other.unknowns
             && one.inputs == other.inputs;
-        let key = format!("{}.{}", contact.element, PeakDeformation::KIND);
-        self.measure(&key).filter(|_| is_it)?.value
+        is_it.then_some(own.deepest.value)
     }
 }

@@ -73,7 +73,7 @@ impl RunReport {
     /// Whether a measure is one of what the end of the run cuts off: it may still grow.
     pub fn is_so_far(&self, measure: &MeasureReport) -> bool {
         let last = measure.time.or(measure.window.map(|(_, end)| end));
-        last.is_some_and(|time| time >= (1.0 - LAST) * self.trajectory.t_end) && self.is_cut()
+        self.is_cut() && last.is_some_and(|time| time >= (1.0 - LAST) * self.energy.time)
     }
 
     /// What is known of each limit, in their order.

@@ -251,6 +251,9 @@ impl RunReport {
         if self.assembly.connections.len() > MOST_ELEMENTS {
             return None;
         }
+        if let Some(known) = self.largest_struck() {
+            return Some(known);
+        }
         let solution = self.solution();
         let window = (0.0, solution.end());
         let connections = self.assembly.connections.iter().enumerate();
@@ -263,6 +266,21 @@ impl RunReport {
             Some((connection.name.as_str(), peak))
         });
         forces.max_by(|one, other| one.1.value.total_cmp(&other.1.value))
+    }
+
+    /// The same where it is known without curves: what strikes touches one element, whose face has no mass, and whatever
+    /// else has a force is the contact or a stop that is not met.
+    fn largest_struck(&self) -> Option<(&str, Extremum)> {
+        let struck = self.trajectory.to_come()?;
+        let pad = self.assembly.pad(struck.element)?;
+        let own = [Some(struck.element), pad.contact, pad.stop];
+        let others = self.assembly.connections.iter().enumerate();
+        let mut others =
+            others.filter(|(at, other)| other.force.is_some() && !own.contains(&Some(*at)));
+        let masses = self.assembly.nodes.iter().filter(|node| node.mass > 0.0).count();
+        let is_alone = others.next().is_none() && masses == 1;
+        let name = self.assembly.connections[struck.element].name.as_str();
+        is_alone.then_some((name, struck.strongest))
     }
 
     /// The largest relative error of any measure, where errors are known.

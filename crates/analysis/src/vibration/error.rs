@@ -49,6 +49,9 @@ pub enum VibrationError {
         /// Why, in words.
         error: String,
     },
+    /// It was asked to end.
+    #[error("it was asked to end")]
+    Cancelled,
     /// The equations cannot be solved over frequency.
     #[error(transparent)]
     Frequency(#[from] FrequencyError),

@@ -1,6 +1,6 @@
 //! Transmissibility over a range of frequencies.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::ControlFlow};
 
 use super::{
     Drive, DriveKind, Mode, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
@@ -8,6 +8,7 @@ use super::{
     observed::{Observed, selected, supports},
     resonance::resonances,
 };
+use crate::sweep::Watch;
 use dashpot_dae::frequency::poles;
 use dashpot_network::NodeId;
 
@@ -93,6 +94,19 @@ impl Vibration {
     ///
     /// [`VibrationError`] for a range or a node that cannot be, and where nothing is to be seen.
     pub fn sweep(&self, settings: &SweepSettings) -> Result<Sweep, VibrationError> {
+        self.sweep_watched(settings, &mut |_, _| ControlFlow::Continue(()))
+    }
+
+    /// The same; before each mass or support `watch` is told how many of them are done, and may end it.
+    ///
+    /// # Errors
+    ///
+    /// As [`sweep`](Self::sweep), and [`VibrationError::Cancelled`].
+    pub fn sweep_watched(
+        &self,
+        settings: &SweepSettings,
+        watch: &mut Watch<'_>,
+    ) -> Result<Sweep, VibrationError> {
         let poles = self.poles();
         let range = range(settings, poles.as_deref().unwrap_or_default())?;
         let frequencies = frequencies(range, settings.points)?;
@@ -121,7 +135,14 @@ impl Vibration {
                 at_rest: curve.at_rest(slowest),
             }
         };
-        let transmissions = self.receivers(&settings.of)?.iter().map(transmission).collect();
+        let receivers = self.receivers(&settings.of)?;
+        let mut transmissions = Vec::with_capacity(receivers.len());
+        for (at, receiver) in receivers.iter().enumerate() {
+            if watch(at, receivers.len()).is_break() {
+                return Err(VibrationError::Cancelled);
+            }
+            transmissions.push(transmission(receiver));
+        }
         let drive = self.drive.clone();
         Ok(Sweep { drive, frequencies, transmissions, onsets, modes: self.modes(), notes })
     }

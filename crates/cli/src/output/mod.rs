@@ -11,6 +11,7 @@ use serde::{Serialize, Serializer};
 use crate::{
     error::CliError,
     folder::{Folder, Staged},
+    host,
     terminal::{Terminal, note, print, print_data},
 };
 
@@ -99,13 +100,17 @@ pub(crate) trait Study {
     }
 }
 
-/// Prints a study, as one JSON object or as text, and writes it into the folder, where there is one.
+/// Prints a study, as one JSON object or as text, and writes it into the folder, where there is one; nothing of it once
+/// the program that calls has asked the work to end.
 pub(crate) fn emit(
     study: &impl Study,
     json: bool,
     folder: Option<Folder>,
     terminal: Terminal,
 ) -> Result<(), CliError> {
+    if host::has_ended() {
+        return Err(CliError::Ended);
+    }
     let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
     let data = || study.data(terminal).filter(|_| folder.is_none());
     let data = if json { Some(object()?) } else { data() };

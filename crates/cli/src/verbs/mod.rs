@@ -24,6 +24,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
+pub(crate) use self::check::undefined;
 use crate::{
     args::When,
     error::{CliError, Status},

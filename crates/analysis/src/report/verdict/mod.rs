@@ -243,6 +243,9 @@ impl<'r> Found<'r> {
     /// In the window of the largest force: at the contact of the padding, or where it has none on what
     /// lies behind.
     fn whole_force(self) -> Option<WholeForce<'r>> {
+        if self.0.largest_struck().is_some() {
+            return None;
+        }
         let (headline, most) = self.largest(PeakForce::KIND)?;
         let (from, to) = headline.window?;
         let window = WindowWish::Times(from, to);
@@ -283,8 +286,13 @@ impl<'r> Found<'r> {
 
     fn depth(self) -> Option<Depth<'r>> {
         let pads = self.of_kind(PeakDeformation::KIND).filter_map(|measure| {
-            let connection = self.0.assembly.connection(&measure.target)?;
+            let at = self.0.assembly.position(&measure.target)?;
+            let connection = &self.connections()[at];
             let (thickness, window) = connection.thickness.zip(measure.window)?;
+            if let Some(struck) = self.0.trajectory.to_come().filter(|own| own.element == at) {
+                let deepest = [struck.deepest.value, struck.deepest.time];
+                return Some((measure, Compression::new(deepest, measure.error, thickness)));
+            }
             let solution = self.0.solution();
             let deformation = solution.signal(connection.deformation);
             Some((measure, Compression::of(deformation, window, thickness)))
@@ -401,9 +409,11 @@ impl<'r> Found<'r> {
     }
 
     fn leaving(self, element: &str) -> Option<Leaving<'r>> {
-        let solution = self.0.solution();
         let speeds = self.impactors(Some(element)).into_iter().filter_map(|(at, node)| {
-            let reading = Measure::read(&EndVelocity::default(), &solution, at);
+            if let Some(struck) = self.0.trajectory.to_come() {
+                return Some((node, struck.leaves));
+            }
+            let reading = Measure::read(&EndVelocity::default(), &self.0.solution(), at);
             Some((node, reading.value?))
         });
         let (node, speed) = speeds.max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()))?;

@@ -12,7 +12,7 @@ mod tables;
 mod total;
 mod words;
 
-use std::{num::NonZero, thread::available_parallelism};
+use std::{num::NonZero, sync::atomic::AtomicUsize, thread::available_parallelism};
 
 use clap::Args;
 use dashpot_analysis::{
@@ -42,6 +42,7 @@ use crate::{
     operand::print_notes,
     out::OutArguments,
     output::{emit, list},
+    progress::Bar,
     section::Verb,
     terminal::Terminal,
 };
@@ -190,6 +191,8 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         limits: &further,
         method: arguments.method.as_deref(),
         sample: ScatterArguments::new(arguments.scatter, arguments.seed),
+        half: arguments.sample.max(2) * asked.tests.len() * asked.choices().len(),
+        posed: AtomicUsize::new(0),
     };
     check_posed(arguments, &posing)?;
     check_measures(&posing)?;
@@ -313,7 +316,10 @@ fn scatter_of(
     let Some(drawn) = posing.drawn(choice, test, values)? else { return Ok(()) };
     let Ok(point) = posing.pose(choice, test)(values) else { return Ok(()) };
     let sample = (&drawn.sample, posing.sample.seed());
-    let report = scatter::solved(&drawn.scene, sample, (&point.settings, &drawn.plain), terminal);
+    let mut bar = Bar::new("scatter", 0.0, terminal.error.attended);
+    let mut watch = |done, of| bar.count(done, of);
+    let asked = (&point.settings, &*drawn.plain);
+    let report = scatter::solved(&drawn.scene, sample, asked, &mut watch);
     run.scatter = report.map_err(CliError::Run)?.map(Box::new);
     Ok(())
 }

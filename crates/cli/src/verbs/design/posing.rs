@@ -1,5 +1,7 @@
 //! What poses the scene of a design: its text with other numbers and choices, and with scattered ones.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use dashpot_analysis::{
     Limit,
     sweep::{PoseAt, ScenePoint},
@@ -13,6 +15,7 @@ use super::{
 };
 use crate::{
     error::CliError,
+    host::{self, ENDED},
     output::list,
     varied::{Varied, messages, point, posed},
     verbs::run::scatter::{self, ScatterArguments},
@@ -27,6 +30,10 @@ pub(super) struct Posing<'a> {
     pub(super) limits: &'a [Limit],
     pub(super) method: Option<&'a str>,
     pub(super) sample: ScatterArguments,
+    /// After so many scenes half of the search is thought to be done …
+    pub(super) half: usize,
+    /// … and so many have been posed.
+    pub(super) posed: AtomicUsize,
 }
 
 /// A sample around a design.
@@ -56,6 +63,12 @@ impl Posing<'_> {
         scene.text(list(numbers), self.asked, choice)
     }
 
+    /// The share of the search that is thought to be done, with one more scene.
+    fn share(&self) -> f64 {
+        let posed = self.posed.fetch_add(1, Ordering::Relaxed) as f64;
+        posed / (posed + self.half as f64)
+    }
+
     pub(super) fn scene(&self, test: &Test) -> &TestScene {
         &self.scenes[test.scene]
     }
@@ -76,8 +89,11 @@ impl Posing<'_> {
 
     /// The scene of a test with a choice, for any numbers.
     pub(super) fn pose<'s>(&'s self, choice: &'s Choice, test: &'s Test) -> Box<PoseAt<'s>> {
-        let (set, scene) = (self.set_for(test), self.scene(test));
+        let (set, scene, watch) = (self.set_for(test), self.scene(test), host::watch());
         Box::new(move |values: &[f64]| {
+            if watch.as_ref().is_some_and(|watch| watch(self.share()).is_break()) {
+                return Err(ENDED.to_owned());
+            }
             let posed = posed(&self.text(scene, choice, values), &scene.input, &set);
             let point = posed.and_then(|own| point(own, self.method));
             let of_test = |fault| match &*test.name {

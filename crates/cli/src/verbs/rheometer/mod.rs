@@ -39,6 +39,7 @@ use crate::{
     folder::{Folder, Staged},
     operand::{Operand, canonical_model},
     output::{Study, Text, VERSION, emit, list, object},
+    progress::Bar,
     terminal::{Terminal, WIDTH, note},
     text::{self, columns, table, wrapped},
 };
@@ -206,8 +207,12 @@ pub(crate) fn rheometer(
     }
     let names = asked.iter().flat_map(|(test, name, _)| [test.clone(), name.clone()]);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(names))?;
-    let mut made = Vec::new();
-    for (test, name, variant) in asked {
+    let (mut made, of) = (Vec::new(), asked.len());
+    let mut bar = Bar::new("rheometer", 0.0, terminal.error.attended);
+    for (at, (test, name, variant)) in asked.into_iter().enumerate() {
+        if bar.count(at, of).is_break() {
+            return Err(CliError::Ended);
+        }
         match protocol(&test, &variant.given)?.run(&specimen, &methods) {
             Ok(report) => {
                 let own = measured.as_ref().filter(|_| test == LoadUnload::KIND);

@@ -49,14 +49,21 @@ struct Output {
     values: Vec<f64>,
 }
 
+impl<'r> Run<'r> {
+    /// A run alone.
+    pub(super) fn of(report: &'r RunReport, floor: Option<&floor::Told>) -> Self {
+        let floor = floor.map(|own| own.object(report));
+        Self { report, curves: None, at: None, measured: Vec::new(), floor }
+    }
+}
+
 impl Answer {
     /// A run of it as an object.
     pub(super) fn object_of<'r>(&'r self, run: &'r RunReport) -> Run<'r> {
         let curves = self.wishes.curves.then(|| outputs(run, sample_times(run, &self.scene.run)));
         let at = (!self.wishes.at.is_empty()).then(|| outputs(run, self.wishes.at.clone()));
         let measured = list(self.compared(run, run.solver.method).map(Told::from));
-        let floor = self.floor.as_ref().map(|own| own.object(run));
-        Run { report: run, curves, at, measured, floor }
+        Run { curves, at, measured, ..Run::of(run, self.floor.as_ref()) }
     }
 
     /// The values at the times that were named, from the best run.

@@ -75,7 +75,7 @@ impl Told {
             let ratio = own.ratio(own.floor).map_or(String::new(), |ratio| {
                 let why = match deepest {
                     _ if ratio >= 1.0 => String::new(),
-                    _ if own.floor.time > run.trajectory.t_end => {
+                    _ if own.floor.time > run.energy.time => {
                         ", for the run ends before it is stopped".to_owned()
                     }
                     Some(deepest) if deepest > floors.travel.length => {

@@ -188,7 +188,7 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     let is_of_run = judged.sampled.is_none();
     match judged.judgement.reason()? {
         Reason::Cut if is_of_run => {
-            let end = numbers::quantity(run.trajectory.t_end, "s", TIME_DIGITS);
+            let end = numbers::quantity(run.energy.time, "s", TIME_DIGITS);
             return Some(format!("the run ends in contact at {end}: make `duration` longer"));
         }
         Reason::Error if is_of_run => {}

@@ -12,6 +12,7 @@ mod floor;
 mod limits;
 mod measures;
 mod object;
+mod one;
 mod options;
 mod order;
 pub(super) mod recorded;
@@ -32,7 +33,6 @@ use dashpot_plot::{
 use dashpot_scene::Scene;
 use serde::Serialize;
 
-pub use self::options::RunOptions;
 use self::{
     beside::{Beside, MeasuredArguments, MeasuredCurve},
     designs::{Design, Designs, Named},
@@ -40,8 +40,8 @@ use self::{
     energy::energy_table,
     files::Written,
     measures::{Column, Side, measures_tables, notes},
+    one::Scattered,
     resolved_scene::Changes,
-    scatter::ScatterArguments,
     series::curves,
     solving::{reasons, solving_table},
     verdict::verdict,
@@ -52,6 +52,7 @@ pub(crate) use self::{
     measures::{measure_text, unit_of_kind},
     verdict::Line,
 };
+pub use self::{one::SceneRun, options::RunOptions, scatter::ScatterArguments};
 use crate::{
     args::{
         LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
@@ -354,8 +355,7 @@ fn solve_all(
         }
     }
     let assembly = Arc::new(scene.assembly.clone());
-    let plain = scatter::plainly_set(&scene, set);
-    let sample = scatter::drawn(&scene, arguments.scatter, &plain, None)?;
+    let scattered = Scattered::of(&scene, set, &options)?;
     let measured = arguments.measured.read(&scene)?;
     let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
     for own in &asked {
@@ -363,10 +363,10 @@ fn solve_all(
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.
             Ok(mut report) if is_new(&runs, &report) => {
-                if let Some(sample) = &sample {
-                    let drawn = (sample, arguments.scatter.seed());
-                    let found = scatter::solved(&scene, drawn, (own, &plain), terminal)?;
-                    report.scatter = found.map(Box::new);
+                if let Some(scattered) = &scattered {
+                    let mut bar = Bar::new("scatter", 0.0, terminal.error.attended);
+                    let mut watch = |done, of| bar.count(done, of);
+                    scattered.add_to(&mut report, &scene, own, &mut watch)?;
                 }
                 let found = measured.iter().map(|own| own.beside(&report, &scene));
                 let mut found = found.collect::<Result<Vec<_>, _>>()?;
@@ -382,7 +382,7 @@ fn solve_all(
     let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
     let wishes = Wishes::of(arguments);
     let floor =
-        arguments.floor.then(|| floor::Told::of(&scene.network, scene.run.duration, &scene.limits));
+        options.floor.then(|| floor::Told::of(&scene.network, scene.run.duration, &scene.limits));
     Ok(Answer { scene, changes, asked, runs, failed, measured, beside, floor, plot, wishes })
 }
 

@@ -3,7 +3,7 @@
 use dashpot_analysis::{Accuracy, RunError, SolveSettings, ask};
 use dashpot_scene::Scene;
 
-use super::RunArguments;
+use super::{RunArguments, scatter::ScatterArguments};
 use crate::args::Switch;
 
 /// What is asked of a run in place of what its scene says.
@@ -21,6 +21,10 @@ pub struct RunOptions {
     pub budget: Option<u64>,
     /// Measures by their keys, besides those of the scene.
     pub measures: Vec<String>,
+    /// What is drawn of numbers with scatter.
+    pub sample: ScatterArguments,
+    /// Tells what no pad can beat.
+    pub floor: bool,
 }
 
 impl RunOptions {
@@ -32,6 +36,8 @@ impl RunOptions {
             without_errors: arguments.estimate == Switch::Off,
             budget: arguments.budget,
             measures: arguments.measure.clone(),
+            sample: arguments.scatter,
+            floor: arguments.floor,
         }
     }
 
@@ -52,7 +58,10 @@ impl RunOptions {
             settings.rtol = None;
         }
         settings.accuracy.neglect_below = self.neglect.or(settings.accuracy.neglect_below);
-        ask(&scene.assembly, &mut settings, &self.measures)?;
+        // Of none nothing is to be looked for.
+        if !self.measures.is_empty() {
+            ask(&scene.assembly, &mut settings, &self.measures)?;
+        }
         Ok(settings)
     }
 }

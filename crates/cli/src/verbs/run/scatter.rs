@@ -5,7 +5,7 @@ use std::{num::NonZero, thread::available_parallelism};
 use clap::Args;
 use dashpot_analysis::{
     Band, Judged, Odds, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
-    sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, columns, sweep},
+    sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch, columns, sweep},
 };
 use dashpot_plot::Table;
 use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, pose, read, units::si_unit};
@@ -20,8 +20,6 @@ use crate::{
     error::CliError,
     input::load,
     numbers::{self, MOST_DIGITS, Unit, rounded},
-    progress::Bar,
-    terminal::Terminal,
     varied::messages,
 };
 
@@ -31,21 +29,30 @@ const ROUNDING: f64 = 1e-12;
 const FEW: usize = 2;
 /// Digits of what is beside one.
 const DIGITS: usize = 4;
+/// So many designs are drawn, and with this seed, unless others are asked for.
+const DESIGNS: usize = 500;
+const SEED: u64 = 1;
 
 /// How scatter is sampled.
 #[derive(Debug, Clone, Copy, Args)]
-pub(crate) struct ScatterArguments {
+pub struct ScatterArguments {
     /// So many designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": a Latin hypercube.
-    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 500)]
+    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = DESIGNS)]
     sample: usize,
     /// Which designs are drawn; the same number gives the same ones.
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    #[arg(long, value_name = "NUMBER", default_value_t = SEED)]
     seed: u64,
+}
+
+impl Default for ScatterArguments {
+    fn default() -> Self {
+        Self { sample: DESIGNS, seed: SEED }
+    }
 }
 
 impl ScatterArguments {
     /// So many designs, drawn with this seed.
-    pub(crate) fn new(sample: usize, seed: u64) -> Self {
+    pub fn new(sample: usize, seed: u64) -> Self {
         Self { sample, seed }
     }
 
@@ -100,7 +107,7 @@ pub(crate) fn solved(
     scene: &Scene,
     (sample, seed): (&Sample, u64),
     (settings, plain): (&SolveSettings, &[(String, String)]),
-    terminal: Terminal,
+    watch: &mut Watch<'_>,
 ) -> Result<Option<ScatterReport>, RunError> {
     let columns = match columns(&point(scene.clone(), settings), &[]) {
         Ok((columns, _)) => columns.into_iter().filter(|own| !own.is_share).collect::<Vec<_>>(),
@@ -110,12 +117,9 @@ pub(crate) fn solved(
     let pose = |places: &[usize]| design(scene, sample, places[0], (settings, plain));
     let Some(grid) = Grid::new(vec![sample.len()]) else { return Ok(None) };
     let threads = available_parallelism().map_or(1, NonZero::get);
-    let mut bar = Bar::new("scatter", 0.0, terminal.error.attended);
-    let mut show =
-        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
     let options = SweepOptions { threads, estimates: Estimates::Off };
     let sources = || sample.drawn().iter().map(source).collect();
-    match sweep(&grid, &pose, &columns, options, &mut show) {
+    match sweep(&grid, &pose, &columns, options, watch) {
         Ok(report) => Ok(Some(ScatterReport::of(sources(), seed, &report))),
         Err(SweepError::Run(error)) => Err(error),
         Err(_) => Ok(None),

@@ -371,7 +371,7 @@ fn index_name(run: &RunReport, measure: &MeasureReport) -> String {
         return if is_hic(measure.kind) { measure.kind.to_uppercase() } else { "GSI".to_owned() };
     }
     let cap = measure.parameters.iter().find_map(|(_, value)| value.number());
-    match cap.filter(|cap| *cap < run.trajectory.t_end) {
+    match cap.filter(|cap| *cap < run.energy.time) {
         Some(cap) => format!("HIC up to {}", constant(cap, "s")),
         None => "HIC without a cap".to_owned(),
     }

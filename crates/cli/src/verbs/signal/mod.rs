@@ -26,6 +26,7 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     output::{Study, Text, emit},
+    progress::Bar,
     terminal::{Terminal, note},
 };
 
@@ -196,7 +197,11 @@ pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<
     }
     let stems = files::stems(&arguments.files);
     let (mut all, mut notes) = (Vec::new(), Vec::new());
-    for (path, stem) in arguments.files.iter().zip(stems) {
+    let mut bar = Bar::new("signal", 0.0, terminal.error.attended);
+    for (at, (path, stem)) in arguments.files.iter().zip(stems).enumerate() {
+        if bar.count(at, arguments.files.len()).is_break() {
+            return Err(CliError::Ended);
+        }
         let record = read::read(path, &arguments.into())?;
         notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
         all.extend(signals(arguments, &record, &stem)?);

@@ -22,6 +22,7 @@ use crate::{
     input::title,
     operand::note_means,
     output::{Study, Text, VERSION, emit, list, object},
+    progress::Bar,
     terminal::{Terminal, WIDTH},
 };
 
@@ -105,12 +106,14 @@ pub(crate) fn vibrate(
     note_means(&scene);
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
-    let sweep = vibration.sweep(&SweepSettings {
+    let settings = SweepSettings {
         from: arguments.from,
         to: arguments.to,
         points: arguments.points,
         of: arguments.of.iter().map(|own| own.trim().to_owned()).collect(),
-    })?;
+    };
+    let mut bar = Bar::new("vibrate", 0.0, terminal.error.attended);
+    let sweep = vibration.sweep_watched(&settings, &mut |done, of| bar.count(done, of))?;
     let steady = match (arguments.at, &arguments.amplitude) {
         (Some(frequency), Some(text)) => {
             Some(vibration.steady(frequency, amplitude(&vibration, frequency, text)?)?)

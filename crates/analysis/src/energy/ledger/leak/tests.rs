@@ -64,7 +64,7 @@ fn doctored(
 
 /// Changes the solution of a report.
 fn changed(report: &mut RunReport, change: impl FnOnce(&mut Trajectory)) {
-    let none = Curves::later(|| unreachable!("it is put back before it is looked at"));
+    let none = Curves::later(|| unreachable!("it is put back before it is looked at"), None);
     let mut own = std::mem::replace(&mut report.trajectory, none).into_trajectory();
     change(&mut own);
     report.trajectory = own.into();
