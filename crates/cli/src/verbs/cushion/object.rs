@@ -51,8 +51,11 @@ fn curve(own: &Curve) -> impl Serialize {
     let points = || own.points.iter();
     let Curve { height, thickness, floor, .. } = own;
     let later = || list(own.repeated.iter().map(Repeated::later));
-    let drops =
-        || list(own.repeated.iter().map(|own| object! { peak: &own.peaks, error: &own.errors }));
+    let drops = || {
+        list(own.repeated.iter().map(|own| {
+            object! { peak: &own.peaks, error: &own.errors, known: own.is_known }
+        }))
+    };
     let has_row = !own.repeated.is_empty();
     object! {
         height, thickness, floor,

@@ -243,6 +243,14 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     if ends(Reach::Known) {
         notes.push(format!("! what is known of {pad} ends there, before the limit"));
     }
+    let rows = || curves.iter().flat_map(|own| &own.repeated);
+    let ended = rows().filter(|own| !own.is_known).count();
+    if ended > 0 {
+        notes.push(format!(
+            "{ended} of {} press {pad} beyond what is known of it: no mean is told there",
+            counted(rows().count(), "row")
+        ));
+    }
     let work = drawn.cushion.work;
     notes.push(format!(
         "{} solved, {} of them in full; {} between them",
