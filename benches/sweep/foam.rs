@@ -14,11 +14,9 @@ use dashpot::{
     rheology::Tree,
 };
 
-const MASS: f64 = 8.0;
 const DAMPING: f64 = 40.0;
-const GRAVITY: f64 = 9.80665;
-const AREA: f64 = 0.0144;
-const THICKNESS: f64 = 0.05;
+pub(crate) const GRAVITY: f64 = 9.80665;
+pub(crate) const AREA: f64 = 0.0144;
 const MODULUS: f64 = 1.2e6;
 const PLATEAU: f64 = 1.2e5;
 const DENSIFICATION: f64 = 3e4;
@@ -34,44 +32,65 @@ pub(crate) const KEYS: [&str; 7] = [
     "head.peak-acceleration",
 ];
 
-/// The scene, dropped from a height [m].
+/// The scene, dropped from a height \[m\].
 pub(crate) fn scene(height: f64) -> ScenePoint {
-    let mut network = Network::new();
-    let head = network.add_node(Node::mass("head", MASS).dropped(height));
-    let foam = Foam {
-        modulus: MODULUS,
-        plateau: PLATEAU,
-        densification: DENSIFICATION,
-        exponent: 2.0,
-        thickness: THICKNESS,
-        area: AREA,
-    };
-    let pad = Tree::parallel([part(foam), part(Dashpot { damping: DAMPING })]);
-    network.connect("pad", head, network.ground(), pad).thickness = Some(THICKNESS);
-    network.add_effect(Gravity { acceleration: GRAVITY, start: GravityStart::Equilibrium });
-    network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
-    ScenePoint { network, settings: SolveSettings::lasting(0.6) }
+    INSTRUMENT.scene(height)
+}
+
+/// A body of some mass \[kg\] over foam of some thickness \[m\].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Block {
+    pub(crate) mass: f64,
+    pub(crate) thickness: f64,
+}
+
+/// The boxed instrument.
+const INSTRUMENT: Block = Block { mass: 8.0, thickness: 0.05 };
+
+impl Block {
+    /// The drop from a height \[m\].
+    pub(crate) fn scene(self, height: f64) -> ScenePoint {
+        let Self { mass, thickness } = self;
+        let mut network = Network::new();
+        let head = network.add_node(Node::mass("head", mass).dropped(height));
+        let foam = Foam {
+            modulus: MODULUS,
+            plateau: PLATEAU,
+            densification: DENSIFICATION,
+            exponent: 2.0,
+            thickness,
+            area: AREA,
+        };
+        let pad = Tree::parallel([part(foam), part(Dashpot { damping: DAMPING })]);
+        let pad = network.connect("pad", head, network.ground(), pad);
+        (pad.thickness, pad.area) = (Some(thickness), Some(AREA));
+        network.add_effect(Gravity { acceleration: GRAVITY, start: GravityStart::Equilibrium });
+        network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+        ScenePoint { network, settings: SolveSettings::lasting(0.6) }
+    }
 }
 
 /// Deformation, its rate, the work of the force, and `∫ F^2.5 dt`.
 type State = [f64; 4];
 
-/// The force, and its slope over time.
-fn force([y, v, ..]: &State) -> f64 {
-    let strain = y / THICKNESS;
-    let stress = if strain < 0.0 {
-        MODULUS * strain
-    } else {
-        let ratio = strain / (1.0 - strain);
-        DENSIFICATION * ratio * ratio - PLATEAU * (-MODULUS * strain / PLATEAU).exp_m1()
-    };
-    AREA * stress + DAMPING * v
-}
+impl Block {
+    /// The force, and its slope over time.
+    fn force(self, [y, v, ..]: &State) -> f64 {
+        let strain = y / self.thickness;
+        let stress = if strain < 0.0 {
+            MODULUS * strain
+        } else {
+            let ratio = strain / (1.0 - strain);
+            DENSIFICATION * ratio * ratio - PLATEAU * (-MODULUS * strain / PLATEAU).exp_m1()
+        };
+        AREA * stress + DAMPING * v
+    }
 
-fn rates(state: &State) -> State {
-    let (force, rate) = (force(state), state[1]);
-    let push = force.max(0.0);
-    [rate, GRAVITY - force / MASS, force * rate, push * push * push.sqrt()]
+    fn rates(self, state: &State) -> State {
+        let (force, rate) = (self.force(state), state[1]);
+        let push = force.max(0.0);
+        [rate, GRAVITY - force / self.mass, force * rate, push * push * push.sqrt()]
+    }
 }
 
 /// The stages of the method, and what its dense output takes of them besides.
@@ -153,58 +172,68 @@ impl Step {
     }
 }
 
-/// How fast the force changes.
-fn force_rate(state: &State) -> f64 {
-    let strain = state[0] / THICKNESS;
-    let void = 1.0 - strain;
-    let slope = MODULUS * (-MODULUS * strain / PLATEAU).exp()
-        + 2.0 * DENSIFICATION * strain / (void * void * void);
-    AREA / THICKNESS * slope * state[1] + DAMPING * rates(state)[1]
+impl Block {
+    /// How fast the force changes.
+    fn force_rate(self, state: &State) -> f64 {
+        let strain = state[0] / self.thickness;
+        let void = 1.0 - strain;
+        let slope = MODULUS * (-MODULUS * strain / PLATEAU).exp()
+            + 2.0 * DENSIFICATION * strain / (void * void * void);
+        AREA / self.thickness * slope * state[1] + DAMPING * self.rates(state)[1]
+    }
+
+    /// The seven measures of a drop from a height \[m\], by hand.
+    pub(crate) fn by_hand(self, height: f64, rtol: f64) -> [f64; 7] {
+        let force = |own: &State| self.force(own);
+        let force_rate = |own: &State| self.force_rate(own);
+        let rates = |own: &State| self.rates(own);
+        let speed = (2.0 * GRAVITY * height).sqrt();
+        let mut state = [0.0, speed, 0.0, 0.0];
+        let sizes = [0.03, speed, 0.5 * self.mass * speed * speed, 1e6];
+        let (mut time, mut length) = (0.0, 1e-4);
+        let (mut peak, mut depth) = (force(&state), 0.0_f64);
+        let mut slopes = [[0.0; 4]; 7];
+        slopes[0] = rates(&state);
+        loop {
+            let mut next = state;
+            for (at, row) in A.iter().enumerate() {
+                next = combined(&state, &slopes[..=at], row, length);
+                slopes[at + 1] = rates(&next);
+            }
+            let off = combined(&[0.0; 4], &slopes, &ERROR, length);
+            // The quadratures are as good as what they are of.
+            let error = (0..2).map(|at| (off[at] / (rtol * sizes[at])).powi(2)).sum::<f64>();
+            let error = (0.5 * error).sqrt();
+            let factor = (0.9 * error.max(1e-10).powf(-0.2)).clamp(0.2, 5.0);
+            if error > 1.0 {
+                length *= factor.min(1.0);
+                continue;
+            }
+            let step = Step::of(&state, &next, &slopes, length);
+            peak = peak.max(force(&next));
+            if force_rate(&state) > 0.0 && force_rate(&next) <= 0.0 {
+                peak = peak.max(force(&step.at(step.zero(force_rate))));
+            }
+            if state[1] > 0.0 && next[1] <= 0.0 {
+                depth = step.at(step.zero(|own| own[1]))[0];
+            }
+            if force(&next) <= 0.0 {
+                let x = step.zero(force);
+                let end = step.at(x);
+                let contact = time + x * step.length;
+                let impulse = self.mass * (speed - end[1] + GRAVITY * contact);
+                let unit = (self.mass * GRAVITY).powf(2.5);
+                return [peak, depth, contact, impulse, end[2], end[3] / unit, peak / self.mass];
+            }
+            time += length;
+            length *= factor;
+            state = next;
+            slopes[0] = slopes[6];
+        }
+    }
 }
 
-/// The seven measures of a drop from a height \[m\], by hand.
+/// The seven measures of the instrument's drop from a height \[m\], by hand.
 pub(crate) fn by_hand(height: f64, rtol: f64) -> [f64; 7] {
-    let speed = (2.0 * GRAVITY * height).sqrt();
-    let mut state = [0.0, speed, 0.0, 0.0];
-    let sizes = [0.03, speed, 0.5 * MASS * speed * speed, 1e6];
-    let (mut time, mut length) = (0.0, 1e-4);
-    let (mut peak, mut depth) = (force(&state), 0.0_f64);
-    let mut slopes = [[0.0; 4]; 7];
-    slopes[0] = rates(&state);
-    loop {
-        let mut next = state;
-        for (at, row) in A.iter().enumerate() {
-            next = combined(&state, &slopes[..=at], row, length);
-            slopes[at + 1] = rates(&next);
-        }
-        let off = combined(&[0.0; 4], &slopes, &ERROR, length);
-        // The quadratures are as good as what they are of.
-        let error = (0..2).map(|at| (off[at] / (rtol * sizes[at])).powi(2)).sum::<f64>();
-        let error = (0.5 * error).sqrt();
-        let factor = (0.9 * error.max(1e-10).powf(-0.2)).clamp(0.2, 5.0);
-        if error > 1.0 {
-            length *= factor.min(1.0);
-            continue;
-        }
-        let step = Step::of(&state, &next, &slopes, length);
-        peak = peak.max(force(&next));
-        if force_rate(&state) > 0.0 && force_rate(&next) <= 0.0 {
-            peak = peak.max(force(&step.at(step.zero(force_rate))));
-        }
-        if state[1] > 0.0 && next[1] <= 0.0 {
-            depth = step.at(step.zero(|own| own[1]))[0];
-        }
-        if force(&next) <= 0.0 {
-            let x = step.zero(force);
-            let end = step.at(x);
-            let contact = time + x * step.length;
-            let impulse = MASS * (speed - end[1] + GRAVITY * contact);
-            let unit = (MASS * GRAVITY).powf(2.5);
-            return [peak, depth, contact, impulse, end[2], end[3] / unit, peak / MASS];
-        }
-        time += length;
-        length *= factor;
-        state = next;
-        slopes[0] = slopes[6];
-    }
+    INSTRUMENT.by_hand(height, rtol)
 }

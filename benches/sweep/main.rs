@@ -13,6 +13,7 @@
 mod by_hand;
 #[path = "../equal_error/cpu.rs"]
 mod cpu;
+mod cushion;
 mod foam;
 mod formulas;
 #[path = "../equal_error/impact.rs"]
@@ -223,6 +224,9 @@ fn main() {
     }
     if is_asked_for("runs") {
         runs::runs();
+    }
+    if is_asked_for("cushion") {
+        cushion::curves();
     }
     if is_asked_for("formulas") {
         formulas::formulas();

@@ -29,7 +29,7 @@ fn number(own: &Value) -> f64 {
     own.as_f64().unwrap_or(f64::NAN)
 }
 
-fn squeezed(text: &str) -> String {
+pub(crate) fn squeezed(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
@@ -244,4 +244,44 @@ fn what_contradicts_itself_says_what_to_write() {
     let output = run(&[&["design", text(&path)][..], &one, &least].concat());
     let said = squeezed(&err(&output));
     assert!(code(&output) == 2 && said.contains("as many words as names"), "{said}");
+}
+
+#[test]
+fn what_scatters_together_in_the_scene_of_a_test_is_borne() {
+    let folder = TempDir::new().unwrap();
+    // The peak force is v √(K m): that of the faster test decides, where K scatters.
+    let scene = |velocity: &str, more: &str| {
+        format!(
+            "[nodes]\nhead = {{ mass = \"4 kg\", velocity = \"{velocity}\" }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], spring = \"40 kN/m\" }}\n\
+             [limits]\npad.peak-force = \"2.5 kN\"\n[run]\nduration = \"200 ms\"\n{more}"
+        )
+    };
+    let scatter = "[scatter]\ntogether = [{ \"pad.spring\" = \"10 %\" }]\n";
+    let slow = file(&folder, "slow.toml", &scene("2 m/s", ""));
+    let fast = file(&folder, "fast.toml", &scene("5 m/s", scatter));
+    let asked = ["--vary", "head.mass=1..20 kg", "--least", "head.peak-acceleration"];
+    let tests = ["--test", text(&slow), "--test", text(&fast), "--robust", "90%", "--json"];
+    let own = json(&[&["design", text(&slow)][..], &asked, &tests].concat());
+    let mass = number(&own["parameters"]["head.mass"]["value"]);
+    let right = 500.0_f64.powi(2) / (40e3 * (0.1_f64 * 1.281_552).exp());
+    assert!((mass / right - 1.0).abs() < 5e-3, "{mass} {right}");
+    assert!(own["robust"]["enough"] == true, "{}", own["robust"]);
+}
+
+#[test]
+fn a_number_that_is_given_no_values_says_what_to_write() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "block.toml", BLOCK);
+    for vary in ["pad.thickness", "pad.thickness="] {
+        let output = run(&["design", text(&path), "--vary", vary, "--least", "pad.thickness"]);
+        let said = squeezed(&err(&output));
+        assert_eq!(code(&output), 2, "{said}");
+        assert!(said.contains("`pad.thickness` is given no values"), "{said}");
+        let example = said.split('"').nth(1).unwrap().replace(' ', "");
+        assert!(example.starts_with("pad.thickness=") && example.contains(".."), "{said}");
+    }
+    let output = run(&["design", text(&path), "--vary", "pad", "--least", "pad.thickness"]);
+    let said = squeezed(&err(&output));
+    assert!(code(&output) == 2 && said.contains("\"pad=10..60 mm\""), "{said}");
 }

@@ -22,6 +22,7 @@ mod conversions;
 mod cost;
 mod curve_files;
 mod cushion;
+mod cushion_scatter;
 mod design;
 mod design_answers;
 mod designs;

@@ -109,7 +109,7 @@ pub struct ScatterReport {
 
 impl Band {
     /// A band of these values; NaN where there is none.
-    fn of(key: &str, unit: &'static str, values: impl Iterator<Item = f64>) -> Self {
+    pub fn of(key: &str, unit: &'static str, values: impl Iterator<Item = f64>) -> Self {
         let all: Vec<f64> = values.collect();
         let mut known: Vec<f64> = all.iter().copied().filter(|own| own.is_finite()).collect();
         known.sort_by(f64::total_cmp);

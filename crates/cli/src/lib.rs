@@ -4,6 +4,7 @@
 //! Results go to standard output, progress and warnings to standard error.
 
 mod args;
+mod around;
 mod cancel;
 mod error;
 mod folder;

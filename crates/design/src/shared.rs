@@ -1,4 +1,4 @@
-//! Work that threads share.
+//! Work that threads share, and what a part of a sample stays within.
 
 use std::thread;
 
@@ -17,4 +17,16 @@ pub(crate) fn shared<T: Sync, U: Send>(
         let parts: Vec<_> = all.chunks(each).map(work).collect();
         parts.into_iter().flat_map(|own| own.join().unwrap_or_default()).collect()
     })
+}
+
+/// What this part of a sample stays within: of what its designs exceed, below zero where they keep everything.
+pub(crate) fn exceeded(mut all: Vec<f64>, share: f64) -> f64 {
+    all.sort_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a position in the sample"
+    )]
+    let at = ((share * all.len() as f64).ceil() as usize).saturating_sub(1);
+    all.get(at).copied().unwrap_or(f64::NAN)
 }

@@ -47,6 +47,7 @@ const SYMBOLS: &[Symbol] = &[
     unit("s", 1.0, 0, Dimension::TIME, true),
     unit("min", 60.0, 0, Dimension::TIME, false),
     unit("h", 3600.0, 0, Dimension::TIME, false),
+    unit("d", 86_400.0, 0, Dimension::TIME, false),
     unit("N", 1.0, 0, Dimension::FORCE, true),
     unit("daN", 1.0, 1, Dimension::FORCE, false),
     unit("J", 1.0, 0, Dimension::ENERGY, true),
@@ -99,6 +100,12 @@ const SPOKEN: &[(&str, &str)] = &[
     ("second", "s"),
     ("seconds", "s"),
     ("msec", "ms"),
+    ("minute", "min"),
+    ("minutes", "min"),
+    ("hour", "h"),
+    ("hours", "h"),
+    ("day", "d"),
+    ("days", "d"),
     ("meter", "m"),
     ("metre", "m"),
     ("newton", "N"),
@@ -217,6 +224,8 @@ mod tests {
     #[test]
     fn whole_symbols_come_before_prefixes() {
         assert_eq!(symbol("min").unwrap().dimension, Dimension::TIME);
+        assert!((crate::parse_quantity("1.5 d").unwrap().value - 129_600.0).abs() < 1e-9);
+        assert_eq!(meant("days").as_deref(), Some("d"));
         assert_eq!(symbol("ft").unwrap().dimension, Dimension::LENGTH);
         assert_eq!(symbol("kg").unwrap().exponent, 0);
         assert_eq!(symbol("Mg").unwrap().exponent, symbol("t").unwrap().exponent);

@@ -11,7 +11,7 @@ const CHAPTERS: [(&str, usize, usize); 21] = [
     ("gradients", 1, 0),
     ("fit", 6, 0),
     ("design", 8, 0),
-    ("cushion", 4, 2),
+    ("cushion", 6, 4),
     ("similarity", 6, 0),
     ("injury-measures", 1, 0),
     ("scatter", 1, 0),

@@ -17,7 +17,8 @@ pub enum Estimates {
     /// once, by the method of those three and at a quarter of their tolerance; they have the largest of
     /// their relative errors. A group whose three differ in kind, by more than 30 times in an error, or of
     /// which the middle one is not within both errors if it is solved once, is halved, and so are its parts:
-    /// at every point of one of less than six, and at points that are of another kind than the three.
+    /// at every point of one of less than six, and at points that are of another kind than the three. Points that are
+    /// instantiated are of another kind than those that are solved in full, and are halved by themselves.
     #[default]
     Some,
     /// At none.

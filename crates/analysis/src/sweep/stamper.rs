@@ -1,5 +1,7 @@
 //! Points that are instantiated, one after the other.
 
+use std::collections::BTreeMap;
+
 use dashpot_network::Instance;
 
 use super::{
@@ -19,7 +21,7 @@ use crate::{
 
 /// A value of a linear scene that is less certain than this part of itself is left to the full solution.
 const LOOSEST: f64 = 1e-6;
-/// At least so many points of a group have errors of their own at some only.
+/// At least so many points of a part of a group have errors of their own at some only.
 const FEWEST: usize = 6;
 /// The errors of all values at points between, in parts of the largest relative one, as any of those may be small by
 /// chance: of solutions at the last tolerance …
@@ -47,6 +49,10 @@ pub(super) struct Sized<'p, const N: usize> {
     numbers: Vec<f64>,
 }
 
+/// What rows of a group that are solved with their errors have, by their places; `None` where they have to be solved in
+/// full.
+type Solved = BTreeMap<usize, Option<Known>>;
+
 /// A tolerance among [`TOLERANCES`], and the error that comes of it, in parts of a value.
 #[derive(Debug, Clone, Copy)]
 struct Known {
@@ -67,25 +73,37 @@ impl<const N: usize> Stamper for Sized<'_, N> {
     }
 
     fn group(&mut self, rows: &mut [Row<'_>]) -> usize {
-        let count = rows.len();
-        let is_spared = self.plan.estimates == Estimates::Some && count >= FEWEST;
-        let is_linear = self.plan.parametric.is_linear();
-        let anchors = if is_spared && !is_linear { vec![0, count / 2, count - 1] } else { vec![] };
-        let known = self.known(&anchors, rows);
-        let mut estimated = if is_linear { 0 } else { anchors.len() };
-        for (at, row) in rows.iter_mut().enumerate() {
-            if anchors.contains(&at) {
+        if self.plan.parametric.is_linear() || self.plan.estimates == Estimates::Off {
+            for row in rows {
+                row.notice = self.write(row.point, row.values, row.errors);
+            }
+            return 0;
+        }
+        let mut solved = Solved::new();
+        let mut parts: Vec<(usize, usize)> =
+            rows.len().checked_sub(1).map(|last| (0, last)).into_iter().collect();
+        while let Some((first, last)) = parts.pop() {
+            let middle = (first + last).div_ceil(2);
+            let is_spared = self.plan.estimates == Estimates::Some && last - first + 1 >= FEWEST;
+            let known = is_spared.then(|| self.agreed([first, middle, last], &mut solved, rows));
+            if let Some(None) = known {
+                parts.extend([(middle, last), (first, middle)]);
                 continue;
             }
-            let spared = known.and_then(|known| {
-                self.pose(row.point)?;
-                self.once(known, row.values, row.errors)
-            });
-            let has_own = spared.is_none() && self.plan.estimates != Estimates::Off && !is_linear;
-            row.notice = spared.or_else(|| self.write(row.point, row.values, row.errors));
-            estimated += usize::from(row.notice.is_some() && has_own);
+            for (at, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
+                if solved.contains_key(&at) {
+                    continue;
+                }
+                row.notice = known.flatten().and_then(|known| {
+                    self.pose(row.point)?;
+                    self.once(known, row.values, row.errors)
+                });
+                if row.notice.is_none() {
+                    solved.insert(at, self.solved(row));
+                }
+            }
         }
-        estimated
+        solved.values().flatten().count()
     }
 }
 
@@ -110,35 +128,35 @@ impl<'p, const N: usize> Sized<'p, N> {
         is_known.then_some(())
     }
 
-    /// Solves these rows of a group with their errors; what they agree in, if they do.
-    fn known(&mut self, anchors: &[usize], rows: &mut [Row<'_>]) -> Option<Known> {
-        let (mut level, mut error, mut is_whole) = (0, 0.0, !anchors.is_empty());
-        for &at in anchors {
-            let row = &mut rows[at];
-            let found = self.pose(row.point).and_then(|()| self.estimated(row.values, row.errors));
-            row.notice = found.map(|found| found.0);
-            let Some((_, own)) = found else {
-                is_whole = false;
-                continue;
-            };
-            level = level.max(own);
-            let sizes =
-                self.plan.shown.iter().zip(&*row.values).map(|(own, value)| own.size(*value));
-            error = row
-                .errors
-                .iter()
-                .zip(sizes)
-                .map(|(error, size)| error / size)
-                .fold(error, f64::max);
+    /// Solves a row of a group with its errors; `None` where it has to be solved in full.
+    fn solved(&mut self, row: &mut Row<'_>) -> Option<Known> {
+        self.pose(row.point)?;
+        let (notice, level) = self.estimated(row.values, row.errors)?;
+        row.notice = Some(notice);
+        let sizes = self.plan.shown.iter().zip(&*row.values).map(|(own, value)| own.size(*value));
+        let relative = row.errors.iter().zip(sizes).map(|(error, size)| error / size);
+        Some(Known { level, error: relative.fold(0.0, f64::max) })
+    }
+
+    /// What three rows of a part of a group agree in, if they do and it is enough for those between; those that are not
+    /// solved yet are.
+    fn agreed(
+        &mut self,
+        anchors: [usize; 3],
+        solved: &mut Solved,
+        rows: &mut [Row<'_>],
+    ) -> Option<Known> {
+        for at in anchors {
+            solved.entry(at).or_insert_with(|| self.solved(&mut rows[at]));
         }
+        let all = anchors.iter().map(|at| solved.get(at).copied().flatten());
+        let all = all.collect::<Option<Vec<Known>>>()?;
+        let level = all.iter().map(|own| own.level).max()?;
+        let error = all.iter().map(|own| own.error).fold(0.0, f64::max);
         // Errors are differences from the coarser solution, so they are its errors first of all.
         let coarser = Known { level: level.saturating_sub(1), error: COARSER * error };
-        let known = if coarser.error <= self.plan.strictest() {
-            coarser
-        } else {
-            Known { level, error: BETWEEN * error }
-        };
-        is_whole.then_some(known)
+        let finer = Known { level, error: BETWEEN * error };
+        [coarser, finer].into_iter().find(|own| own.error <= self.plan.strictest())
     }
 }
 

@@ -3,8 +3,8 @@
 use dashpot_numerics::extrema::maximum_within;
 
 use super::{
-    NoCushion,
-    curves::{Curve, CushionPoint, Tests},
+    CushionPoint, NoCushion,
+    curves::{Curve, Tests},
     edge::{Seen, edge, surely},
 };
 
@@ -205,7 +205,7 @@ pub(super) fn range(tests: &Tests<'_>) -> Result<Vec<f64>, NoCushion> {
 }
 
 /// So many numbers at equal ratios.
-fn ratios([low, high]: [f64; 2], count: u16) -> impl Iterator<Item = f64> {
+pub(super) fn ratios([low, high]: [f64; 2], count: u16) -> impl Iterator<Item = f64> {
     let last = f64::from(count - 1);
     (0..count).map(move |at| low * (high / low).powf(f64::from(at) / last))
 }

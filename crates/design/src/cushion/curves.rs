@@ -3,15 +3,15 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_analysis::{
-    Solve, Warning,
+    Band, Solve, Warning,
     measures::{PeakAcceleration, PeakDeformation},
-    sweep::{Column, Grid, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep},
+    sweep::{Column, Grid, Pose, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep},
 };
 use dashpot_network::{Detail, Network, effects::Stop, parameters::Kind as _};
 
 use super::{
-    Asked, Best, Creep, NoCushion, Passing, Platen, PoseOfThickness, Repeated, Row, Work,
-    repeated::repeated,
+    Asked, Best, Creep, CushionPoint, Known, NoCushion, Passing, Platen, PoseOfThickness, Repeated,
+    Row, Work, point::known, repeated::repeated,
 };
 use crate::floor::{Judged, TravelOf, floors};
 
@@ -19,85 +19,6 @@ use crate::floor::{Judged, TravelOf, floors};
 const PASSAGES: f64 = 10.0;
 /// Tolerance of drops whose errors are not estimated.
 const RTOL: f64 = 1e-8;
-
-/// How far a point is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Known {
-    /// All of it is within what is known of the cushion.
-    Whole,
-    /// The cushion meets its stop.
-    OnStop,
-    /// A measured law is followed beyond its last point.
-    BeyondLaw,
-    /// The cushion is pressed by more than its thickness.
-    PressedThrough,
-    /// The drop could not be solved.
-    Unsolved,
-}
-
-/// Whether a value is one of the curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Usable {
-    /// It is one of the scene as it stands.
-    Yes,
-    /// It hangs on something that nothing is known of.
-    No,
-}
-
-impl Known {
-    /// Its word: `whole`, `on-stop`, `beyond-law`, `pressed-through` or `unsolved`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Whole => "whole",
-            Self::OnStop => "on-stop",
-            Self::BeyondLaw => "beyond-law",
-            Self::PressedThrough => "pressed-through",
-            Self::Unsolved => "unsolved",
-        }
-    }
-
-    /// Whether the peak may be used: a stop is a part of the scene, what lies beyond a law or a thickness is not.
-    pub fn usable(self) -> Usable {
-        match self {
-            Self::Whole | Self::OnStop => Usable::Yes,
-            Self::BeyondLaw | Self::PressedThrough | Self::Unsolved => Usable::No,
-        }
-    }
-}
-
-/// A drop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CushionPoint {
-    /// Static stress \[Pa\].
-    pub stress: f64,
-    /// Peak acceleration \[m/s²\]; not a number where it could not be solved.
-    pub peak: f64,
-    /// Its error \[m/s²\]; not a number where it is not known.
-    pub error: f64,
-    /// The largest deformation in parts of the thickness.
-    pub strain: f64,
-    /// How far it is known.
-    pub known: Known,
-}
-
-impl CushionPoint {
-    /// Whether its peak may be used.
-    pub fn is_usable(&self) -> bool {
-        self.known.usable() == Usable::Yes && self.peak.is_finite()
-    }
-
-    /// Whether it certainly keeps a limit \[m/s²\].
-    pub fn keeps(&self, limit: f64) -> bool {
-        self.excess(limit) <= 0.0
-    }
-
-    /// By how much it may exceed a limit \[m/s²\]: zero or less where it certainly keeps it, infinite where its peak
-    /// cannot be used.
-    pub(super) fn excess(&self, limit: f64) -> f64 {
-        let error = if self.error.is_finite() { self.error } else { 0.0 };
-        if self.is_usable() { self.peak + error - limit } else { f64::INFINITY }
-    }
-}
 
 /// The curve of one height and thickness.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,6 +37,11 @@ pub struct Curve {
     pub passing: Option<Passing>,
     /// The drops in a row at each point, where they are asked for.
     pub repeated: Vec<Repeated>,
+    /// What scatter makes of the peak \[m/s²\] at each point, where there is some; drops that press the cushion beyond
+    /// what is known of it have no value.
+    pub bands: Vec<Band>,
+    /// The same at the best stress.
+    pub best_band: Option<Band>,
 }
 
 /// Drops of a platen on a cushion.
@@ -163,7 +89,7 @@ impl<'t> Tests<'t> {
         self.probes.load(Ordering::Relaxed)
     }
 
-    fn peak_key(&self) -> String {
+    pub(super) fn peak_key(&self) -> String {
         format!("{}.{}", self.platen.body, PeakAcceleration::KIND)
     }
 
@@ -174,10 +100,20 @@ impl<'t> Tests<'t> {
     /// The scene of a drop.
     fn scene(&self, height: f64, thickness: f64, stress: f64) -> Result<ScenePoint, String> {
         let is_it = |own: &f64| own.to_bits() == thickness.to_bits();
-        let mut scene = match self.asked.thicknesses.iter().position(is_it) {
+        let scene = match self.asked.thicknesses.iter().position(is_it) {
             Some(at) => self.posed[at].clone(),
             None => (self.pose)(thickness)?,
         };
+        self.dropped(scene, height, stress)
+    }
+
+    /// A drop onto the cushion of a scene.
+    pub(super) fn dropped(
+        &self,
+        mut scene: ScenePoint,
+        height: f64,
+        stress: f64,
+    ) -> Result<ScenePoint, String> {
         self.platen.drop_in(&mut scene.network, height, stress)?;
         let settings = &mut scene.settings;
         settings.duration = self.duration;
@@ -207,12 +143,12 @@ impl<'t> Tests<'t> {
             _ => Err("three axes".to_owned()),
         };
         let options = SweepOptions { threads: *threads, ..SweepOptions::default() };
-        let report = sweep(&grid, &pose, &self.columns, options, watch)?;
+        let report = self.swept(&grid, &pose, options, watch)?;
         let work = Work {
             points: grid.len(),
             instantiated: report.instantiated,
             estimated: report.estimated,
-            probes: 0,
+            ..Work::default()
         };
         let mut curves = Vec::with_capacity(heights.len() * thicknesses.len());
         for (at_height, &height) in heights.iter().enumerate() {
@@ -223,6 +159,24 @@ impl<'t> Tests<'t> {
             }
         }
         Ok((curves, work))
+    }
+
+    /// Drops at all points of a grid.
+    pub(super) fn swept(
+        &self,
+        grid: &Grid,
+        pose: &Pose<'_>,
+        options: SweepOptions,
+        watch: &mut Watch<'_>,
+    ) -> Result<SweepReport, NoCushion> {
+        Ok(sweep(grid, pose, &self.columns, options, watch)?)
+    }
+
+    /// The values of the column of a measure.
+    pub(super) fn column(report: &SweepReport, key: &str) -> impl Fn(&[f64], usize) -> f64 + use<> {
+        let width = report.columns.len();
+        let at = report.columns.iter().position(|own| !own.is_share && own.key == key);
+        move |all: &[f64], place: usize| at.map_or(f64::NAN, |at| all[place * width + at])
     }
 
     fn curve(
@@ -238,20 +192,13 @@ impl<'t> Tests<'t> {
             .and_then(|scene| floors(&scene.network, self.duration, &[]).ok());
         let stop = floor.as_ref().filter(|own| own.travel.of == TravelOf::Stop);
         let stop = stop.map(|own| own.travel.length / thickness);
-        let width = report.columns.len();
-        let column = |key: &str| {
-            let at = report.columns.iter().position(|own| !own.is_share && own.key == key);
-            move |all: &[f64], place: usize| at.map_or(f64::NAN, |at| all[place * width + at])
-        };
-        let (peak_of, depth_of) = (column(&self.peak_key()), column(&self.depth_key()));
+        let column = |key: String| Self::column(report, &key);
+        let (peak_of, depth_of) = (column(self.peak_key()), column(self.depth_key()));
         let point = |(at, &stress): (usize, &f64)| {
             let place = first + at;
             let strain = depth_of(&report.values, place) / thickness;
             let peak = peak_of(&report.values, place);
-            let mut all = report.warnings.iter();
-            let is_beyond = all.any(|own| {
-                own.warning.is_beyond_known() && own.points.binary_search(&place).is_ok()
-            });
+            let is_beyond = is_beyond(report, place);
             CushionPoint {
                 stress,
                 peak,
@@ -268,6 +215,8 @@ impl<'t> Tests<'t> {
             best: None,
             passing: None,
             repeated: Vec::new(),
+            bands: Vec::new(),
+            best_band: None,
         }
     }
 
@@ -357,17 +306,8 @@ impl<'t> Tests<'t> {
     }
 }
 
-/// How far a drop is known that strains the cushion by so much, with the strain of its stop.
-fn known(peak: f64, strain: f64, stop: Option<f64>, is_beyond: bool) -> Known {
-    if peak.is_nan() {
-        Known::Unsolved
-    } else if is_beyond && strain >= 1.0 {
-        Known::PressedThrough
-    } else if is_beyond {
-        Known::BeyondLaw
-    } else if stop.is_some_and(|stop| strain > stop) {
-        Known::OnStop
-    } else {
-        Known::Whole
-    }
+/// Whether something is pressed further than is known of it at a point.
+pub(super) fn is_beyond(report: &SweepReport, place: usize) -> bool {
+    let mut all = report.warnings.iter();
+    all.any(|own| own.warning.is_beyond_known() && own.points.binary_search(&place).is_ok())
 }

@@ -13,7 +13,7 @@ pub(super) fn edge(
     mut with: Seen,
     mut without: Seen,
     nearest: f64,
-    excess: impl Fn(f64) -> f64,
+    mut excess: impl FnMut(f64) -> f64,
 ) -> [Seen; 2] {
     let mut halve = false;
     for _ in 0..MOST_STEPS {

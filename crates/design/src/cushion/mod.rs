@@ -19,11 +19,13 @@
 //!
 //! `astm-d1596` in `docs/references.bib`.
 
+mod batches;
 mod best;
 mod creep;
 mod curves;
 mod edge;
 mod platen;
+mod point;
 mod repeated;
 mod stress_energy;
 mod thinnest;
@@ -36,10 +38,12 @@ use dashpot_network::NetworkErrors;
 use thiserror::Error;
 
 pub use self::{
+    batches::{Sure, with_scatter},
     best::{Best, Passing, Place, Reach},
     creep::{Creep, Trust},
-    curves::{Curve, CushionPoint, Known, Usable},
+    curves::Curve,
     platen::{Assumed, Platen, PoseOfThickness},
+    point::{CushionPoint, Known},
     repeated::{Repeated, Row},
     stress_energy::{Collapse, StressEnergy},
     thinnest::{Thinnest, Unmet},
@@ -109,6 +113,10 @@ pub struct Work {
     pub estimated: usize,
     /// Drops besides them, from which the best stresses and the ends of ranges were found.
     pub probes: usize,
+    /// Drops of scattered designs.
+    pub scattered: usize,
+    /// Those of them that were instantiated.
+    pub scattered_instantiated: usize,
 }
 
 /// Why there are no cushion curves.

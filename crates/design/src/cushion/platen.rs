@@ -58,11 +58,7 @@ impl Platen {
         if own <= 0.0 || own.is_nan() {
             return Err(NoCushion::NoWeight { gravity: own });
         }
-        let height = match node.start {
-            Start::Drop(height) => Some(height),
-            Start::Velocity(speed) => Some(0.5 * speed * speed / own),
-            Start::Rest => None,
-        };
+        let height = height(node.start, own);
         let is_this = |own: &Separation| own.element == connection.name;
         let mut separations =
             network.effects().iter().filter_map(|own| own.of_kind::<Separation>());
@@ -88,6 +84,13 @@ impl Platen {
     /// The static stress \[Pa\] of the mass in the scene.
     pub fn stress(&self) -> f64 {
         self.mass * self.gravity / self.area
+    }
+
+    /// By which factors the mass and the height of a scene with scatter differ from those here.
+    pub(super) fn factors(&self, scattered: &Network) -> Option<[f64; 2]> {
+        let node = scattered.node(scattered.node_named(&self.body)?);
+        let height = height(node.start, self.gravity).zip(self.height);
+        Some([node.mass / self.mass, height.map_or(1.0, |(own, mean)| own / mean)])
     }
 
     /// The speed \[m/s\] at touch after a fall from a height \[m\].
@@ -120,6 +123,15 @@ impl Platen {
             }
         }
         Ok(())
+    }
+}
+
+/// From what height \[m\] a body comes that starts like this.
+fn height(start: Start, gravity: f64) -> Option<f64> {
+    match start {
+        Start::Drop(height) => Some(height),
+        Start::Velocity(speed) => Some(0.5 * speed * speed / gravity),
+        Start::Rest => None,
     }
 }
 

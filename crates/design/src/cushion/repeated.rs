@@ -12,7 +12,7 @@ use dashpot_analysis::{
 use dashpot_dae::{Piece, Waveform};
 use dashpot_network::{Network, Node, elements::Contact, parameters::Kind as _, part};
 
-use super::{Curve, NoCushion, Platen};
+use super::{Curve, NoCushion, Platen, curves::is_beyond};
 
 /// A platen is taken off by so many times the force that would stop it in this part of an impact.
 const LIFT: f64 = 2.0;
@@ -34,11 +34,17 @@ pub struct Repeated {
     pub peaks: Vec<f64>,
     /// Their errors \[m/s²\].
     pub errors: Vec<f64>,
+    /// Whether none of them presses the cushion beyond what is known of it.
+    pub is_known: bool,
 }
 
 impl Repeated {
-    /// The mean of all but the first drop \[m/s²\], as ASTM D1596 reports it.
+    /// The mean of all but the first drop \[m/s²\], as ASTM D1596 reports it; not a number where a drop goes beyond what
+    /// is known of the cushion.
     pub fn later(&self) -> f64 {
+        if !self.is_known {
+            return f64::NAN;
+        }
         let later = self.peaks.get(1..).unwrap_or_default();
         later.iter().sum::<f64>() / later.len() as f64
     }
@@ -177,5 +183,6 @@ fn read(
         };
         keys.iter().map(one).collect()
     };
-    Repeated { peaks: all(&report.values), errors: all(&report.errors) }
+    let is_known = !is_beyond(report, point);
+    Repeated { peaks: all(&report.values), errors: all(&report.errors), is_known }
 }

@@ -12,7 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::curves::{Curve, CushionPoint};
+use super::{Curve, CushionPoint, Known};
 
 /// Points scatter about a polynomial of this degree in the logarithm of the energy.
 const DEGREE: usize = 4;
@@ -70,8 +70,7 @@ impl StressEnergy {
     /// The method for curves of several heights or thicknesses; `None` of a single one, or where too few points can be
     /// used. Drops on a stop are not of the material and left out.
     pub(super) fn of(curves: &[Curve], unit: f64) -> Option<Self> {
-        let is_of_material =
-            |own: &&CushionPoint| own.is_usable() && own.known == super::Known::Whole;
+        let is_of_material = |own: &&CushionPoint| own.is_usable() && own.known == Known::Whole;
         let mut count = 0;
         let (mut energies, mut stresses) = (Vec::new(), Vec::new());
         for curve in curves {
@@ -141,7 +140,6 @@ fn polynomial(x: &[f64], y: &[f64], degree: usize, scale: f64) -> Option<(Vec<f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cushion::Known;
 
     /// Curves of three heights and two thicknesses with this peak in m/s², of height, thickness and stress.
     fn curves(peak: impl Fn(f64, f64, f64) -> f64) -> Vec<Curve> {
@@ -159,6 +157,8 @@ mod tests {
             best: None,
             passing: None,
             repeated: Vec::new(),
+            bands: Vec::new(),
+            best_band: None,
         };
         let all = [0.3, 0.6, 0.9].into_iter().flat_map(|own| [(own, 0.03), (own, 0.06)]);
         all.map(|(height, thickness)| one(height, thickness)).collect()

@@ -1,14 +1,16 @@
 //! The thinnest cushion that keeps a limit over a range of static stresses, and the lightest.
 
 use super::{
-    curves::{CushionPoint, Tests},
+    CushionPoint, Sure,
+    best::ratios,
+    curves::Tests,
     edge::{edge, surely},
 };
 
 /// A thickness is found to this part of the thickest one …
 const NEAREST: f64 = 1e-6;
 /// … and to this one where many are compared.
-const ROUGHLY: f64 = 2e-4;
+pub(super) const ROUGHLY: f64 = 2e-4;
 /// Stresses of the range at which it has to be kept, at equal ratios.
 const STRESSES: u16 = 13;
 
@@ -34,6 +36,8 @@ pub struct Thinnest {
     /// The least volume for a weight, `t/σ` \[m³/N\], with its thickness \[m\] and stress \[Pa\] within the range, where
     /// any keeps the limit.
     pub lightest: Option<[f64; 3]>,
+    /// How sure it is, where there is scatter and a thickness keeps the limit.
+    pub sure: Option<Sure>,
 }
 
 /// What is asked for.
@@ -67,14 +71,17 @@ impl Question<'_> {
         let lightest = least.and_then(|own| volume(own[2], NEAREST));
         let is_first = found.as_ref().is_ok_and(|own| own.0.is_first);
         let over_all = found.map(|own| (own.0.thickness, own.1));
-        Thinnest { height, over_all, is_first, lightest }
+        Thinnest { height, over_all, is_first, lightest, sure: None }
     }
 
     fn stresses(&self) -> impl Iterator<Item = f64> {
-        let [low, high] = self.over;
-        let last = f64::from(STRESSES - 1);
-        (0..STRESSES).map(move |at| low * (high / low).powf(f64::from(at) / last))
+        within(self.over)
     }
+}
+
+/// The stresses of a range at which a limit has to be kept.
+pub(super) fn within(over: [f64; 2]) -> impl Iterator<Item = f64> {
+    ratios(over, STRESSES)
 }
 
 /// The drops from one height.

@@ -7,6 +7,7 @@ use super::{
     programme::Found,
     search::{Known, ROOM, Search},
 };
+use crate::shared::exceeded;
 
 /// Rounds in which limits are drawn in.
 const ROUNDS: usize = 6;
@@ -128,15 +129,7 @@ impl Sample {
     /// What no more than this part of the designs stays within: below zero where they keep everything.
     fn exceeded(&self, share: f64) -> f64 {
         let most = |all: &Vec<f64>| all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut all: Vec<f64> = self.excesses.iter().map(most).collect();
-        all.sort_by(f64::total_cmp);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a position in the sample"
-        )]
-        let at = ((share * all.len() as f64).ceil() as usize).saturating_sub(1);
-        all.get(at).copied().unwrap_or(f64::NAN)
+        exceeded(self.excesses.iter().map(most).collect(), share)
     }
 
     /// By how many standard deviations limits have to be drawn in for this part of the designs to keep everything, if the

@@ -31,6 +31,9 @@ pub struct CushionCurve {
     pub best: Option<(f64, f64)>,
     /// Static stress \[kPa\] and mean peak \[g\] of the drops that follow the first one in a row; empty for none.
     pub later: Vec<(f64, f64)>,
+    /// Static stress \[kPa\] and the peaks \[g\] between which 95 % of scattered designs lie; what is not finite is a
+    /// gap, empty for none.
+    pub band: Vec<(f64, f64, f64)>,
 }
 
 /// How well a point of a cushion curve is known.
@@ -69,6 +72,9 @@ impl CushionSeries {
     pub fn chart(&self) -> Chart {
         let top = self.top();
         let mut series: Vec<Series> = Vec::new();
+        series.extend(
+            self.curves.iter().enumerate().filter_map(|(colour, own)| own.band(colour, top)),
+        );
         for (colour, curve) in self.curves.iter().enumerate() {
             series.extend(curve.parts(colour, top));
         }
@@ -91,6 +97,8 @@ impl CushionSeries {
             (!floors.is_empty()).then(|| "dash-dotted: no cushion can do better".to_owned()),
         );
         let has_rows = self.curves.iter().any(|own| !own.later.is_empty());
+        let has_bands = self.curves.iter().any(|own| !own.band.is_empty());
+        notes.extend(has_bands.then(|| "areas: 95 % of the scattered designs".to_owned()));
         notes.extend(has_rows.then(|| "pale: mean of the drops that follow in a row".to_owned()));
         notes.retain(|own| !own.is_empty());
         let markers = self.curves.iter().filter_map(|own| own.best).filter(|own| own.1 <= top);
@@ -132,6 +140,17 @@ impl CushionSeries {
 }
 
 impl CushionCurve {
+    /// The band of scattered designs, up to the top.
+    fn band(&self, colour: usize, top: f64) -> Option<Series> {
+        let cut = |&(x, low, high): &(f64, f64, f64)| {
+            let high = if high.is_finite() { high.min(top) } else { high };
+            (x, if low <= top { low } else { f64::NAN }, high)
+        };
+        let rows: Vec<(f64, f64, f64)> = self.band.iter().map(cut).collect();
+        let has_any = rows.iter().any(|own| own.1.is_finite() && own.2.is_finite());
+        has_any.then(|| Series::band("", colour, rows))
+    }
+
     /// The drops that follow the first one.
     fn later(&self, colour: usize, top: f64) -> Option<Series> {
         let gap = |own: (f64, f64)| if own.1 <= top { own } else { (own.0, f64::NAN) };
@@ -211,6 +230,7 @@ mod tests {
             floor: Some(20.0),
             best: Some((2.0, 40.0)),
             later: Vec::new(),
+            band: vec![(1.0, 300.0, 500.0), (2.0, 36.0, 44.0), (4.0, 50.0, 140.0)],
         };
         CushionSeries {
             title: "Drops".into(),
@@ -227,16 +247,23 @@ mod tests {
             chart.series.iter().map(|own| own.stroke.unwrap().pattern).collect();
         assert_eq!(
             patterns,
-            [Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted]
+            [Pattern::Band, Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted]
         );
+        // The band ends at the top, and begins where it is below it.
+        let band = &chart.series[0].points;
+        let inner: Vec<_> = band.iter().filter(|own| own.1.is_finite()).collect();
+        assert!(inner.contains(&&(4.0, 125.0)) && inner.contains(&&(2.0, 36.0)), "{band:?}");
+        assert!(inner.iter().all(|own| own.1 <= 125.0), "{band:?}");
         // The top is 125 g: 2^(275/360) kPa.
-        let first = chart.series[0].points[0];
+        let first = chart.series[1].points[0];
         assert!((first.0 - 2.0_f64.powf(275.0 / 360.0)).abs() < 1e-12, "{first:?}");
         assert_eq!(first.1.to_bits(), 125.0_f64.to_bits());
-        assert_eq!(chart.series[1].points, [(2.0, 40.0), (4.0, 60.0)]);
+        assert_eq!(chart.series[2].points, [(2.0, 40.0), (4.0, 60.0)]);
         assert!(chart.series.iter().all(|own| own.stroke.unwrap().colour == 0));
         let svg = chart.svg().unwrap();
-        for text in ["static stress (kPa)", "limit 50 g", "40 g", "dashed: on the stop"] {
+        for text in
+            ["static stress (kPa)", "limit 50 g", "40 g", "dashed: on the stop", "areas: 95 %"]
+        {
             assert!(svg.contains(text), "{text}");
         }
     }

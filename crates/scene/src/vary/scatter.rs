@@ -157,6 +157,8 @@ pub struct Drawn {
 pub struct Sample {
     tunables: Tunables,
     drawn: Vec<Drawn>,
+    /// The causes of what scatters together: the paths of their numbers, and which random numbers they were drawn with.
+    causes: Vec<(Vec<String>, u64)>,
     count: usize,
 }
 
@@ -186,7 +188,8 @@ impl Sample {
     /// random, independently for each number. The values of a number depend on `seed`, on `count`, on its
     /// position among those with scatter, and on nothing else; what another scene of the same design has drawn as
     /// well, by the same path, is drawn as there. Numbers that scatter together are `x exp(Σ sᵢ zᵢ)` with
-    /// their shares `sᵢ` of independent causes, `zᵢ` from such a hypercube of normal distributions. `change` tells what a text with another value of one of
+    /// their shares `sᵢ` of independent causes, `zᵢ` from such a hypercube of normal distributions; a cause is that of
+    /// the other scene in the same place if they have a number in common. `change` tells what a text with another value of one of
     /// them is to the scene. A number that changes nothing is not drawn, and does not count; where the outermost
     /// values are refused, the distribution is cut off at the first of them. `None` where no number has scatter.
     ///
@@ -237,11 +240,12 @@ impl Sample {
             })
             .collect();
         let causes = causes(text, &tunables);
-        let z = |cause: usize| -> Vec<f64> {
-            let places = places(seed, OF_CAUSES + cause as u64, count).into_iter();
+        let streams = streams(&causes, &tunables, beside.map_or(&[], |own| &own.causes));
+        let z = |(_, stream): &(Vec<String>, u64)| -> Vec<f64> {
+            let places = places(seed, *stream, count).into_iter();
             places.map(|own| quantile(own.clamp(OUTERMOST, 1.0 - OUTERMOST))).collect()
         };
-        let z: Vec<Vec<f64>> = (0..causes.len()).map(z).collect();
+        let z: Vec<Vec<f64>> = streams.iter().map(z).collect();
         for at in in_causes(&causes) {
             let number = ScatteredNumber::of_causes(&tunables, at, &causes);
             let (written, unit) = tunables.written(at);
@@ -257,7 +261,7 @@ impl Sample {
             let (unit, cut) = (unit.to_owned(), [None, None]);
             all.push(Drawn { number, cut, beyond: 0.0, at, unit, values, stream: OF_CAUSES });
         }
-        Ok((!all.is_empty()).then_some(Self { tunables, drawn: all, count }))
+        Ok((!all.is_empty()).then_some(Self { tunables, drawn: all, causes: streams, count }))
     }
 
     /// How many designs there are.
@@ -276,6 +280,25 @@ impl Sample {
         let value = |own: &Drawn| (own.at, number_text(own.values[design], &own.unit));
         self.tunables.text_with(&self.drawn.iter().map(value).collect::<Vec<_>>())
     }
+}
+
+/// The paths of the numbers of each cause, and which random numbers it is drawn with: those of the cause of another
+/// scene in the same place, if they have a number in common.
+fn streams(
+    causes: &[Cause],
+    tunables: &Tunables,
+    known: &[(Vec<String>, u64)],
+) -> Vec<(Vec<String>, u64)> {
+    let mut next = OF_CAUSES + known.len() as u64;
+    let each = causes.iter().enumerate().map(|(at, cause)| {
+        let paths: Vec<String> =
+            cause.shares.iter().map(|own| tunables.all()[own.0].path.clone()).collect();
+        let same = known.get(at).filter(|own| own.0.iter().any(|path| paths.contains(path)));
+        let stream = same.map_or(next, |own| own.1);
+        next += u64::from(same.is_none());
+        (paths, stream)
+    });
+    each.collect()
 }
 
 /// Places in a distribution, from 0 to 1, one in each of so many parts of it.
@@ -371,6 +394,26 @@ mod tests {
         }
         assert_eq!(own.drawn()[1].number.text, "5 ± 0.5 kg");
         assert!((own.drawn()[1].number.deviation - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_cause_is_that_of_the_other_scene_where_both_have_a_number_in_common() {
+        let text = |name: &str| {
+            format!(
+                "[values]\nK = \"20 MN/m\"\nC = \"20 N s/m\"\n[scatter]\ntogether = [{{ {name} = \"10 %\" }}]\n"
+            )
+        };
+        let of = |name: &str, beside: Option<&Sample>| {
+            Sample::of(&text(name), 50, 1, &|_| Change::Some, beside).unwrap().unwrap()
+        };
+        let values = |own: &Sample| -> Vec<String> {
+            own.drawn()[0].values.iter().map(f64::to_string).collect()
+        };
+        let first = of("\"values.K\"", None);
+        assert_eq!(values(&of("\"values.K\"", Some(&first))), values(&first));
+        // By itself any first cause is drawn alike; beside another one it is independent of that.
+        assert_eq!(values(&of("\"values.C\"", None)), values(&first));
+        assert_ne!(values(&of("\"values.C\"", Some(&first))), values(&first));
     }
 
     #[test]

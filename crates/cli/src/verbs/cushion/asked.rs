@@ -1,16 +1,21 @@
 //! What cushion curves are asked for: heights, thicknesses, stresses and a limit, from the command and the scene.
 
 use dashpot_analysis::{Bound, measures::PeakAcceleration};
-use dashpot_design::cushion::{Asked, NoCushion, Platen, PoseOfThickness, Row};
+use dashpot_design::{
+    cushion::{Asked, NoCushion, Platen, PoseOfThickness, Row},
+    optimum::PoseScattered,
+};
 use dashpot_network::parameters::{Dimension, Kind as _};
 use dashpot_scene::{Scene, Tunables, Variation, units::si_unit};
 
 use super::CushionArguments;
 use crate::{
+    around::{Around, with_scatter},
     error::CliError,
     input::{Input, setting},
     output::list,
-    varied::{point, posed},
+    varied::{Varied, messages, point, posed},
+    verbs::run::scatter::ScatterArguments,
 };
 
 /// More curves are not drawn.
@@ -91,6 +96,46 @@ impl Wanted {
             let value = format!("{thickness:e} {}", si_unit(Dimension::LENGTH));
             let values = list(self.thickness.map(|at| (at, value)));
             point(posed(&self.tunables.text_with(&values), input, set)?, method)
+        })
+    }
+
+    /// A sample of scattered designs with the cushion at a thickness; none where no number has scatter that does anything.
+    pub(super) fn drawn(
+        &self,
+        thickness: f64,
+        (scene, input): (&Scene, &Input),
+        arguments: &CushionArguments,
+    ) -> Result<Option<Around>, CliError> {
+        let written = self.thickness.map(|at| {
+            let own = Varied::of(
+                &self.tunables,
+                ("thickness", at),
+                [thickness; 2],
+                ("m", Some(Dimension::LENGTH)),
+            );
+            let scattered = with_scatter((scene, &self.tunables), (&own, at), thickness);
+            (at, scattered.unwrap_or_else(|| own.exact(thickness)))
+        });
+        let text = self.tunables.text_with(&list(written));
+        let sample = ScatterArguments::new(arguments.scatter, arguments.seed);
+        Around::of(&text, (input, &arguments.scene.values.set), sample, None)
+    }
+
+    /// What poses them.
+    pub(super) fn scattered<'s>(
+        &'s self,
+        of: (&'s Scene, &'s Input),
+        arguments: &'s CushionArguments,
+        pose: &'s PoseOfThickness<'s>,
+    ) -> Box<PoseScattered<'s>> {
+        Box::new(move |_, values: &[f64]| {
+            let thickness = values.first().copied().unwrap_or(f64::NAN);
+            let own = pose(thickness)?;
+            let drawn = self.drawn(thickness, of, arguments).map_err(|fault| match fault {
+                CliError::Scene(faults) => messages(&faults),
+                other => other.to_string(),
+            })?;
+            drawn.map_or_else(|| Ok(vec![own.clone()]), |drawn| drawn.designs(&own.settings))
         })
     }
 }

@@ -8,7 +8,7 @@ use dashpot_plot::{
 };
 
 use super::{
-    Drawn, beside,
+    Drawn, batches, beside,
     words::{self, in_g, in_kpa, length},
 };
 use crate::{
@@ -22,6 +22,9 @@ use crate::{
 
 /// All points of all curves.
 const TABLE: &str = "cushion.csv";
+/// Its columns of bands.
+const BAND: [&str; 3] =
+    ["2.5 % of designs [m/s^2]", "97.5 % of designs [m/s^2]", "designs beyond what is known [1]"];
 /// All points as the stress–energy method sees them.
 const STRESS_ENERGY: &str = "stress-energy.svg";
 /// Places at which its curves are drawn.
@@ -76,7 +79,8 @@ fn energies(own: &StressEnergy) -> StressEnergySeries {
 
 /// Writes all points in SI units as CSV; what is missing is blank.
 pub(super) fn table(drawn: &Drawn, out: &mut dyn io::Write) -> io::Result<()> {
-    let header = [
+    let has_bands = drawn.batches.is_some();
+    let mut header = vec![
         "height [m]",
         "thickness [m]",
         "static stress [Pa]",
@@ -85,14 +89,18 @@ pub(super) fn table(drawn: &Drawn, out: &mut dyn io::Write) -> io::Result<()> {
         "strain [1]",
         "known",
     ];
+    if has_bands {
+        header.extend(BAND);
+    }
     let rows = drawn.cushion.curves.iter().flat_map(|curve| {
-        curve.points.iter().map(|own| {
+        curve.points.iter().enumerate().map(|(at, own)| {
             let number = |own: f64| own.is_finite().then_some(own);
             let all = [own.stress, own.peak, own.error, own.strain].map(number);
-            (curve.height, curve.thickness, all, own.known.word())
+            let band = curve.bands.get(at).map(|own| (own.low, own.high, own.without));
+            (curve.height, curve.thickness, all, own.known.word(), list(band))
         })
     });
-    csv(out, header.map(str::to_owned), rows)
+    csv(out, header.into_iter().map(str::to_owned), rows)
 }
 
 /// The curves of one height as the plain numbers that a figure is drawn from.
@@ -127,7 +135,11 @@ fn curve(own: &Curve) -> CushionCurve {
     let floor = own.floor.map(|own| in_g().of(own));
     let later = own.points.iter().zip(&own.repeated);
     let later = list(later.map(|(own, row)| place(own.stress, row.later())));
-    CushionCurve { name: length(own.thickness), points, floor, best, later }
+    let band = own.points.iter().zip(&own.bands).map(|(own, band)| {
+        let (low, high) = batches::ends(band).unwrap_or((f64::NAN, f64::NAN));
+        (in_kpa().of(own.stress), in_g().of(low), in_g().of(high))
+    });
+    CushionCurve { name: length(own.thickness), points, floor, best, later, band: list(band) }
 }
 
 /// Everything on one page.

@@ -1,21 +1,25 @@
 //! `dashpot cushion`.
 
 mod asked;
+mod batches;
 mod beside;
 mod files;
 mod object;
 mod words;
 
-use std::{num::NonZero, path::PathBuf, thread::available_parallelism};
+use std::{num::NonZero, ops::ControlFlow, path::PathBuf, thread::available_parallelism};
 
 use clap::Args;
-use dashpot_design::cushion::{Cushion, Known, cushion as solve};
+use dashpot_design::{
+    cushion::{Cushion, Known, cushion as solve, with_scatter},
+    optimum::Scattered,
+};
 use dashpot_scene::{Scene, read};
 use serde::Serialize;
 
-use self::asked::Wanted;
+use self::{asked::Wanted, batches::Batches};
 use crate::{
-    args::{SceneArguments, method_names},
+    args::{SceneArguments, method_names, probability, samples},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
@@ -76,6 +80,16 @@ pub(crate) struct CushionArguments {
     /// Compression under the weight that stays, after these times, such as "1 min,1 h,24 h".
     #[arg(long, value_name = "TIMES", value_delimiter = ',')]
     creep: Vec<String>,
+    /// So many scattered designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": bands of the
+    /// curves, and how sure the thinnest cushion is.
+    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 100)]
+    scatter: usize,
+    /// Which of them are drawn; the same number gives the same ones.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+    /// The part of them that has to keep the limit where it is told from which thickness on that is sure.
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability, default_value = "95%")]
+    robust: f64,
     /// Method for all drops [default: the scene's, if it names one, else auto].
     #[arg(long, value_name = "NAME", value_parser = method_names())]
     method: Option<String>,
@@ -98,6 +112,8 @@ struct Drawn {
     scene: Scene,
     wanted: Wanted,
     cushion: Cushion,
+    /// What was drawn; nothing where no number of the scene has scatter.
+    batches: Option<Batches>,
     is_csv: bool,
 }
 
@@ -120,23 +136,32 @@ pub(crate) fn cushion(
     let all = || available_parallelism().map_or(1, NonZero::get);
     let mut asked = wanted.asked.clone();
     asked.threads = arguments.threads.map_or_else(all, NonZero::get);
-    let mut bar = Bar::new("cushion", 0.0, terminal.error.attended);
-    let mut show =
-        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
     let pose = wanted.pose(&input, set, arguments.method.as_deref());
-    let found = solve(&wanted.platen, &asked, &*pose, &mut show)?;
+    let mut found = solve(&wanted.platen, &asked, &*pose, &mut bar("cushion", terminal))?;
+    let batches = Batches::of((arguments, &wanted), &scene, &input)?;
+    if batches.is_some() {
+        let scattered = wanted.scattered((&scene, &input), arguments, &*pose);
+        let scattered = Scattered { share: arguments.robust, pose: &*scattered };
+        with_scatter(&mut found, &asked, &*pose, scattered, &mut bar("scatter", terminal))?;
+    }
     drop(pose);
     let is_unsolved = |own: &Known| *own == Known::Unsolved;
     let mut points = found.curves.iter().flat_map(|own| &own.points);
     let has_failed = points.all(|own| is_unsolved(&own.known));
     let is_kept = found.is_kept();
-    let drawn = Drawn { scene, wanted, cushion: found, is_csv: arguments.csv };
+    let drawn = Drawn { scene, wanted, cushion: found, batches, is_csv: arguments.csv };
     emit(&drawn, arguments.json, folder, terminal)?;
     Ok(match (has_failed, arguments.enforce && !is_kept) {
         (true, _) => Status::RunFailed,
         (false, true) => Status::LimitNotKept,
         (false, false) => Status::Done,
     })
+}
+
+/// Shows how far some work is.
+fn bar(name: &'static str, terminal: Terminal) -> impl FnMut(usize, usize) -> ControlFlow<()> {
+    let mut bar = Bar::new(name, 0.0, terminal.error.attended);
+    move |done, of| bar.show(done as f64 / of as f64, || format!("{done} of {of}"))
 }
 
 impl Study for Drawn {

@@ -1,11 +1,12 @@
 //! Cushion curves as an object, in SI units.
 
+use dashpot_analysis::Band;
 use dashpot_design::cushion::{
-    Assumed, Best, Creep, Curve, Passing, Reach, Repeated, StressEnergy, Thinnest, Unmet,
+    Assumed, Best, Creep, Curve, Passing, Reach, Repeated, StressEnergy, Sure, Thinnest, Unmet,
 };
 use serde::Serialize;
 
-use super::Drawn;
+use super::{Drawn, batches::Batches};
 use crate::{
     origin,
     output::{VERSION, list, object},
@@ -34,10 +35,12 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
         over: wanted.asked.over,
         curves: list(cushion.curves.iter().map(curve)),
         thinnest: list(cushion.thinnest.iter().map(thinnest)),
+        scatter: drawn.batches.as_ref().map(scatter),
         creep: list(cushion.creep.iter().map(creep)),
         stress_energy: cushion.stress_energy.as_ref().map(stress_energy),
         work: object! {
             points: work.points, instantiated: work.instantiated, estimated: work.estimated, probes: work.probes,
+            scattered: work.scattered, scattered_instantiated: work.scattered_instantiated,
         },
         scene_warnings: said::warning_objects(scene),
         scene_notes: said::note_objects(scene),
@@ -48,8 +51,11 @@ fn curve(own: &Curve) -> impl Serialize {
     let points = || own.points.iter();
     let Curve { height, thickness, floor, .. } = own;
     let later = || list(own.repeated.iter().map(Repeated::later));
-    let drops =
-        || list(own.repeated.iter().map(|own| object! { peak: &own.peaks, error: &own.errors }));
+    let drops = || {
+        list(own.repeated.iter().map(|own| {
+            object! { peak: &own.peaks, error: &own.errors, known: own.is_known }
+        }))
+    };
     let has_row = !own.repeated.is_empty();
     object! {
         height, thickness, floor,
@@ -59,6 +65,8 @@ fn curve(own: &Curve) -> impl Serialize {
         strain: list(points().map(|own| own.strain)),
         known: list(points().map(|own| own.known.word())),
         best: own.best.as_ref().map(best),
+        best_band: own.best_band.as_ref(),
+        bands: (!own.bands.is_empty()).then(|| bands(&own.bands)),
         passing: own.passing.map(passing),
         later: has_row.then(later),
         drops: has_row.then(drops),
@@ -75,6 +83,24 @@ fn best(own: &Best) -> impl Serialize {
 
 fn passing(Passing { stress, ends }: Passing) -> impl Serialize {
     object! { low: stress[0], high: stress[1], ends: ends.map(Reach::word) }
+}
+
+/// What was drawn.
+fn scatter(Batches { sources, designs, seed }: &Batches) -> impl Serialize {
+    object! { designs, seed, sources }
+}
+
+/// Bands point by point.
+fn bands(own: &[Band]) -> impl Serialize {
+    let all = |of: fn(&Band) -> Option<f64>| list(own.iter().map(of));
+    object! {
+        mean: all(|own| own.mean), deviation: all(|own| own.deviation),
+        low: all(|own| own.low), high: all(|own| own.high), without: list(own.iter().map(|own| own.without)),
+    }
+}
+
+fn sure(Sure { odds, share, thickness }: &Sure) -> impl Serialize {
+    object! { odds, share, thickness }
 }
 
 fn creep(own: &Creep) -> impl Serialize {
@@ -106,6 +132,6 @@ fn thinnest(own: &Thinnest) -> impl Serialize {
         height: own.height,
         thickness: all.map(|own| own.0), peak: all.map(|own| own.1.peak), error: all.map(|own| own.1.error),
         stress: all.map(|own| own.1.stress),
-        is_first: own.is_first, unmet, lightest,
+        is_first: own.is_first, unmet, lightest, sure: own.sure.as_ref().map(sure),
     }
 }

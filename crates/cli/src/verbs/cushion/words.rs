@@ -7,7 +7,11 @@ use dashpot_design::cushion::{
 use dashpot_plot::Table;
 use dashpot_units::percent;
 
-use super::{Drawn, beside};
+use super::{
+    Drawn,
+    batches::{self, Batches},
+    beside,
+};
 use crate::{
     numbers::{Unit, counted, digits, quantity, rounded},
     output::list,
@@ -38,7 +42,7 @@ pub(super) fn length(value: f64) -> String {
 }
 
 /// A length that is not below the value, as a thinner cushion than one that just keeps a limit does not keep it.
-fn no_less(value: f64) -> String {
+pub(super) fn no_less(value: f64) -> String {
     let unit = 10.0_f64.powf(value.log10().floor() - (DIGITS - 1) as f64);
     let up = (value / unit * (1.0 - ROUNDING)).ceil() * unit;
     length(if up.is_finite() { up } else { value })
@@ -91,6 +95,7 @@ pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
             });
         }
     }
+    lines.extend(drawn.batches.iter().flat_map(Batches::lines));
     lines.extend(drawn.cushion.stress_energy.as_ref().map(beside::stress_energy));
     lines.extend(drawn.cushion.creep.iter().find_map(beside::slowest));
     lines
@@ -145,7 +150,8 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
         );
         ("lightest", text)
     });
-    [first].into_iter().chain(lightest).collect()
+    let sure = batches::sure(own, &limit);
+    [first].into_iter().chain(sure).chain(lightest).collect()
 }
 
 /// The best stress of each curve, its peak, its floor and what keeps the limit.
@@ -156,6 +162,8 @@ pub(super) fn table(drawn: &Drawn) -> Table {
         ["height\nmm", "thickness\nmm", "best stress\nkPa", "peak\ng", "±\n%", "strain\n%"]
             .map(str::to_owned),
     );
+    let has_bands = drawn.batches.is_some();
+    header.extend(has_bands.then(|| "95 % of designs\ng".to_owned()));
     header.extend(has_floor.then(|| "floor\ng".to_owned()));
     header.extend(limit.map(|own| format!("at most {}\nkPa", in_g().text(own, FEW))));
     let row = |own: &Curve| {
@@ -163,8 +171,10 @@ pub(super) fn table(drawn: &Drawn) -> Table {
         let best = own.best.map_or([NONE; 4].map(str::to_owned), |own| of_best(&own));
         let floor = own.floor.map_or(NONE.to_owned(), |own| in_g().number(own, FEW));
         let passing = limit.map(|_| own.passing.map_or(NONE.to_owned(), passing));
-        let first = [mm(own.height), mm(own.thickness)].into_iter();
-        list(first.chain(best).chain(has_floor.then_some(floor)).chain(passing))
+        let band = batches::range(own.best_band.as_ref()).unwrap_or_else(|| NONE.to_owned());
+        let first = [mm(own.height), mm(own.thickness)].into_iter().chain(best);
+        let more = [has_bands.then_some(band), has_floor.then_some(floor), passing];
+        list(first.chain(more.into_iter().flatten()))
     };
     let rows = list(drawn.cushion.curves.iter().map(row));
     Table { caption: "The best static stress of each curve".to_owned(), header, rows }
@@ -233,6 +243,14 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     if ends(Reach::Known) {
         notes.push(format!("! what is known of {pad} ends there, before the limit"));
     }
+    let rows = || curves.iter().flat_map(|own| &own.repeated);
+    let ended = rows().filter(|own| !own.is_known).count();
+    if ended > 0 {
+        notes.push(format!(
+            "{ended} of {} press {pad} beyond what is known of it: no mean is told there",
+            counted(rows().count(), "row")
+        ));
+    }
     let work = drawn.cushion.work;
     notes.push(format!(
         "{} solved, {} of them in full; {} between them",
@@ -240,5 +258,28 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         work.points - work.instantiated,
         counted(work.probes, "further one")
     ));
+    if drawn.batches.is_some() {
+        notes.extend(batches_notes(drawn));
+    }
     notes
+}
+
+/// What is to be known of bands.
+fn batches_notes(drawn: &Drawn) -> Vec<String> {
+    let work = drawn.cushion.work;
+    let solved = format!(
+        "{} of scattered designs, {} of them in full",
+        counted(work.scattered, "drop"),
+        work.scattered - work.scattered_instantiated
+    );
+    let bands = || drawn.cushion.curves.iter().flat_map(|own| &own.bands);
+    let ended = bands().filter(|own| own.without > 0).count();
+    let ended = (ended > 0).then(|| {
+        format!(
+            "at {ended} of {} a design presses {} beyond what is known of it: no band is told there",
+            counted(bands().count(), "drop"),
+            drawn.cushion.platen.pad
+        )
+    });
+    [solved].into_iter().chain(ended).collect()
 }

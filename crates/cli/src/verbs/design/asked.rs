@@ -13,6 +13,9 @@ use crate::{error::CliError, output::list, varied::Varied};
 
 /// What `--solve-for` looks at, in parts of what the scene has.
 const AROUND: [f64; 2] = [0.1, 10.0];
+/// Bounds that are offered, in parts of what the scene has, and their digits.
+const AROUND_USUAL: [f64; 2] = [0.5, 2.0];
+const FEW: usize = 3;
 /// So many choices are tried at most.
 const MOST: usize = 1000;
 
@@ -105,6 +108,9 @@ impl Asked {
         let fault = |fault| CliError::Tunable { flag: "--vary", fault };
         let (mut variations, mut groups) = (Vec::new(), Vec::new());
         for text in texts {
+            if text.split_once('=').is_none_or(|own| own.1.trim().is_empty()) {
+                return Err(self.without_values(text.trim_end_matches([' ', '='])));
+            }
             let own = Among::parse(text)?;
             groups.push(own.len());
             variations.extend(own);
@@ -123,6 +129,27 @@ impl Asked {
             }
         }
         Ok(())
+    }
+
+    /// What to write where it is not said between which bounds a number may vary.
+    fn without_values(&self, name: &str) -> CliError {
+        let own = self.tunables.find(name).ok();
+        let own = own.map(|at| Varied::of(&self.tunables, (name, at), [0.0; 2], ("", None)));
+        let own = own.filter(|own| own.start > 0.0);
+        let bounds = own.map_or_else(
+            || "10..60 mm".to_owned(),
+            |own| {
+                let [low, high] = AROUND_USUAL.map(|part| own.short(part * own.start, FEW));
+                format!("{}..{high}", low.split(' ').next().unwrap_or_default())
+            },
+        );
+        CliError::WrongSetting {
+            name: "--vary".to_owned(),
+            reason: format!(
+                "`{name}` is given no values: write its bounds, as in \"{name}={bounds}\", or what it may be, one by one \
+                 with commas"
+            ),
+        }
     }
 
     fn add(

@@ -6,7 +6,6 @@ use dashpot_analysis::{
     Limit,
     sweep::{PoseAt, ScenePoint},
 };
-use dashpot_scene::{Sample, Scene, read};
 
 use super::{
     among::Choice,
@@ -14,11 +13,12 @@ use super::{
     scenes::{Test, TestScene},
 };
 use crate::{
+    around::{Around, with_scatter},
     error::CliError,
     host::{self, ENDED},
     output::list,
-    varied::{Varied, messages, point, posed},
-    verbs::run::scatter::{self, ScatterArguments},
+    varied::{messages, point, posed},
+    verbs::run::scatter::ScatterArguments,
 };
 
 /// What poses the scene.
@@ -36,14 +36,6 @@ pub(super) struct Posing<'a> {
     pub(super) posed: AtomicUsize,
 }
 
-/// A sample around a design.
-pub(super) struct Drawn {
-    pub(super) scene: Scene,
-    pub(super) sample: Sample,
-    /// What is set from outside and has no scatter.
-    pub(super) plain: Vec<(String, String)>,
-}
-
 impl Posing<'_> {
     /// The text of a scene with a choice and these numbers in SI units, to the bit.
     fn text(&self, scene: &TestScene, choice: &Choice, values: &[f64]) -> String {
@@ -57,7 +49,8 @@ impl Posing<'_> {
         let numbers = self.asked.numbers.iter().zip(values).enumerate();
         let numbers = numbers.map(|(at, (own, value))| {
             let place = scene.place(at);
-            let scattered = place.and_then(|at| with_scatter(scene, (own, at), *value));
+            let scattered = place
+                .and_then(|at| with_scatter((&scene.scene, &scene.tunables), (own, at), *value));
             scattered.unwrap_or_else(|| own.written(*value))
         });
         scene.text(list(numbers), self.asked, choice)
@@ -110,17 +103,13 @@ impl Posing<'_> {
         choice: &Choice,
         test: &Test,
         values: &[f64],
-    ) -> Result<Option<Drawn>, CliError> {
+    ) -> Result<Option<Around>, CliError> {
         let (set, own) = (self.set_for(test), self.scene(test));
-        let text = self.written(own, choice, values);
-        let scene = read(&text, &own.input.options(&set)).map_err(CliError::Scene)?.value;
-        let plain = scatter::plainly_set(&scene, &set);
         // One design has its numbers in all scenes.
         let first = self.asked.tests.first().filter(|own| own.scene != test.scene);
         let first = first.map(|first| self.drawn(choice, first, values)).transpose()?.flatten();
-        let sample =
-            scatter::drawn(&scene, self.sample, &plain, first.as_ref().map(|own| &own.sample))?;
-        Ok(sample.map(|sample| Drawn { scene, sample, plain }))
+        let beside = first.as_ref().map(|own| &own.sample);
+        Around::of(&self.written(own, choice, values), (&own.input, &set), self.sample, beside)
     }
 
     /// The scattered designs of a test around these numbers; the design itself where it has no scatter.
@@ -135,26 +124,9 @@ impl Posing<'_> {
             CliError::Scene(faults) => messages(&faults),
             other => other.to_string(),
         })?;
-        let Some(Drawn { scene, sample, plain }) = drawn else {
-            return Ok(vec![own; self.sample.count()]);
-        };
-        let one = |at: usize| scatter::design(&scene, &sample, at, (&own.settings, &plain));
-        (0..sample.len()).map(one).collect()
+        match drawn {
+            Some(drawn) => drawn.designs(&own.settings),
+            None => Ok(vec![own; self.sample.count()]),
+        }
     }
-}
-
-/// A number with the scatter that it has in a scene: the same part of it where that is in percent, else as much.
-fn with_scatter(scene: &TestScene, (own, at): (&Varied, usize), value: f64) -> Option<String> {
-    let tunables = &scene.tunables;
-    let path = &tunables.all()[at].path;
-    let scatter = scene.scene.scatter.iter().find(|own| own.path == *path && !own.is_together)?;
-    let is_part = tunables.shown(at).trim_end().ends_with('%') && own.unit != "%";
-    let part = if is_part { value / scatter.mean } else { 1.0 };
-    let [mean, deviation] = [value, scatter.deviation * part].map(|of| own.written(of));
-    Some(if own.unit == "%" {
-        let [mean, deviation] = [&mean, &deviation].map(|own| own.trim_end_matches([' ', '%']));
-        format!("({mean} ± {deviation}) %")
-    } else {
-        format!("{mean} ± {deviation}")
-    })
 }

@@ -142,7 +142,8 @@ fn point(scene: Scene, settings: &SolveSettings) -> ScenePoint {
     ScenePoint { network: scene.network, settings }
 }
 
-fn source(drawn: &Drawn) -> ScatterSource {
+/// A number that was drawn, in SI units.
+pub(crate) fn source(drawn: &Drawn) -> ScatterSource {
     let number = &drawn.number;
     ScatterSource {
         name: number.name.clone(),
@@ -171,10 +172,9 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
         format!("; probability to keep all limits {}", probability(own))
     });
     let first = format!(
-        "{}; {} designs (Latin hypercube, seed {}), {how}, without error bars of their own{all}",
-        sources(own),
-        own.designs,
-        own.seed
+        "{}; {}, {how}, without error bars of their own{all}",
+        sources(&own.sources),
+        designs(own.designs, own.seed)
     );
     let unsolved = own.why.as_ref().map(|why| {
         format!("{} of the designs could not be solved, the first because {why}", own.unsolved)
@@ -184,9 +184,9 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
 }
 
 /// The numbers that were drawn, those by themselves and those together.
-fn sources(own: &ScatterReport) -> String {
+pub(crate) fn sources(all: &[ScatterSource]) -> String {
     let named = |is_together: bool| {
-        let all = own.sources.iter().filter(|own| own.is_together == is_together);
+        let all = all.iter().filter(|own| own.is_together == is_together);
         all.map(|of| format!("{} = {}", of.name, of.text)).collect::<Vec<_>>().join(", ")
     };
     let told = [
@@ -200,8 +200,13 @@ fn sources(own: &ScatterReport) -> String {
     told.map(|(names, how)| format!("{names}, {how}")).collect::<Vec<_>>().join("; ")
 }
 
+/// `500 designs (Latin hypercube, seed 1)`.
+pub(crate) fn designs(count: usize, seed: u64) -> String {
+    format!("{count} designs (Latin hypercube, seed {seed})")
+}
+
 /// Where the distribution of a number is cut off.
-fn cut_text(own: &ScatterSource) -> Option<String> {
+pub(crate) fn cut_text(own: &ScatterSource) -> Option<String> {
     let bound = |word: &str, at: Option<f64>| {
         at.map(|at| format!("{word} {}", rounded(at, &own.unit, MOST_DIGITS)))
     };
@@ -228,7 +233,8 @@ pub(super) fn chance(judged: &Judged<'_>) -> Option<String> {
     Some(format!("{word} {}", probability(&own.odds)))
 }
 
-fn probability(own: &Odds) -> String {
+/// A probability with its range: `97.6 % (95.8 to 98.6 %)`.
+pub(crate) fn probability(own: &Odds) -> String {
     let (low, high) = own.range();
     let unknown = own.not_known();
     let unknown = match unknown {
