@@ -3,7 +3,11 @@
 
 use std::{fs::File, io, ops::Range, path::Path, sync::Arc};
 
-use dashpot_analysis::{Judgement, sweep::SweepReport};
+use dashpot_analysis::{
+    Judgement,
+    sweep::{Grid, SweepReport},
+};
+use dashpot_scene::Variation;
 use parquet::{
     basic::{Compression, LogicalType, Repetition, Type as Physical},
     column::writer::ColumnWriter,
@@ -24,7 +28,6 @@ use super::{
     summary::Summary,
 };
 use crate::output::{VERSION, list};
-use dashpot_analysis::sweep::Grid;
 
 /// Heading of the reasons why a point or value is missing.
 const MISSING: &str = "missing";
@@ -76,7 +79,7 @@ pub(super) fn bytes(
 fn written(varied: &Varied, grid: &Grid, footer: &Footer, report: &SweepReport) -> Result<Vec<u8>> {
     let mut names = header(varied, report);
     names.push(MISSING.to_owned());
-    let mut is_of_words = list(varied.variations.iter().map(|own| own.is_of_words()));
+    let mut is_of_words = list(varied.variations.iter().map(Variation::is_of_words));
     is_of_words.resize(is_of_words.len() + 2 * report.columns.len(), false);
     is_of_words.resize(names.len(), true);
     let field = |(name, is_of_words): (&String, bool)| {

@@ -6,8 +6,11 @@ mod summary;
 
 use std::ops::Range;
 
-use dashpot_analysis::sweep::{
-    Column, Estimates, Grid, Pose, SweepOptions, points_of_shard, sweep_in_parts,
+use dashpot_analysis::{
+    Limit,
+    sweep::{
+        Column, Estimates, Grid, Pose, SweepError, SweepOptions, points_of_shard, sweep_in_parts,
+    },
 };
 use dashpot_plot::Table;
 use dashpot_scene::Scene;
@@ -78,7 +81,7 @@ pub(super) fn written(
         let (known, of) = (known.len(), known.len() + missing.len());
         note(&format!("{known} of {of} files are there, whole: they are not solved again"));
     }
-    let limits = pose(&grid.places(0)).map_err(dashpot_analysis::sweep::SweepError::NotPosed)?;
+    let limits = pose(&grid.places(0)).map_err(SweepError::NotPosed)?;
     let mut sum = Summary::default();
     let mut sizes: Vec<(Range<usize>, Summary)> =
         there.into_iter().map(|own| (own.points, own.summary)).collect();
@@ -139,7 +142,7 @@ struct Parts<'w> {
     /// What the command line asked for, in words.
     asked: Vec<(&'static str, String)>,
     place: Option<Place>,
-    limits: Vec<(usize, dashpot_analysis::Limit)>,
+    limits: Vec<(usize, Limit)>,
     folder: String,
     files: Vec<String>,
     sum: Summary,
@@ -167,15 +170,6 @@ impl Parts<'_> {
             format!("{} {words}: {pass} of {of} points pass, {fail} fail{open}", own.key)
         })
     }
-
-    /// What is said of some points, the rest counted.
-    fn told(&self, all: &[Counted], words: impl Fn(&Counted) -> String) -> Vec<String> {
-        let mut told = list(all.iter().take(MOST_TOLD).map(words));
-        if all.len() > MOST_TOLD {
-            told.push(format!("{} more are in {RESULT}", all.len() - MOST_TOLD));
-        }
-        told
-    }
 }
 
 impl Study for Parts<'_> {
@@ -190,10 +184,10 @@ impl Study for Parts<'_> {
         text.items([solved(sum.instantiated, sum.points)]);
         text.items(self.kept());
         text.items(sum.left_out.iter().map(summary::LeftOut::in_words));
-        text.items(self.told(&sum.failed, |own| {
+        text.items(told(&sum.failed, |own| {
             format!("{} without a solution: {}", counted(own.points, "point"), own.text)
         }));
-        text.items(self.told(&sum.warnings, |own| {
+        text.items(told(&sum.warnings, |own| {
             format!(
                 "warning `{}` at {}, at one of them: {}",
                 own.code,
@@ -267,4 +261,13 @@ impl Study for Parts<'_> {
             parquet: &self.files,
         }
     }
+}
+
+/// What is said of some points, the rest counted.
+fn told(all: &[Counted], words: impl Fn(&Counted) -> String) -> Vec<String> {
+    let mut told = list(all.iter().take(MOST_TOLD).map(words));
+    if all.len() > MOST_TOLD {
+        told.push(format!("{} more are in {RESULT}", all.len() - MOST_TOLD));
+    }
+    told
 }

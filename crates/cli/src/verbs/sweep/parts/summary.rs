@@ -39,7 +39,7 @@ pub(super) struct LeftOut {
 
 impl LeftOut {
     fn of(own: &PartialOfSweep) -> Self {
-        let effects = list(own.left_out.iter().map(|own| own.effect.to_string()));
+        let effects = list(own.left_out.iter().map(|own| own.effect.clone()));
         Self { bound: own.bound, effects, moves: own.worst.as_ref().map_or(0.0, Cost::most) }
     }
 
