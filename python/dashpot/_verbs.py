@@ -258,7 +258,7 @@ class Sweep:
 def sweep(
     scene: Any,
     vary: Mapping[str, Any] | None = None,
-    measures: list[str] | tuple[str, ...] = (),
+    measures: str | list[str] | tuple[str, ...] = (),
     *,
     progress: Progress | None = None,
     **options: Any,
@@ -275,7 +275,7 @@ def sweep(
         Arrays over the grid; equal to the bit on any number of threads.
     """
     own = scene if isinstance(scene, Scene) else Scene(scene)
-    measure = ",".join(measures) or None
+    measure = _keys(measures)
     return Sweep(call("sweep", own, vary=vary or {}, measure=measure, progress=progress, **options))
 
 
@@ -283,14 +283,14 @@ def sweep_to_parquet(
     scene: Any,
     folder: str | os.PathLike[str],
     vary: Mapping[str, Any] | None = None,
-    measures: list[str] | tuple[str, ...] = (),
+    measures: str | list[str] | tuple[str, ...] = (),
     *,
     progress: Progress | None = None,
     **options: Any,
 ) -> Result:
     """A sweep of any size, written as Parquet while it is solved, as ``dashpot sweep --parquet``; memory does not grow
-    with its points. The folder is read by ``pandas.read_parquet(folder / "points-00000001.parquet")`` file by file, or
-    as a whole by DuckDB, polars and Dask as ``folder/*.parquet``.
+    with its points. Its files are read one by one by ``pandas.read_parquet``, or all at once by DuckDB, polars and Dask as
+    ``folder/*.parquet``. Its columns have the names of the CSV, with units: ``"padding.peak-force [N]"``.
 
     Args:
         folder: holds the points of this sweep and nothing else. What is there, whole, is not solved again: after an
@@ -301,7 +301,7 @@ def sweep_to_parquet(
         What is known of all points: counts, extremes, warnings, and the names of the files under ``"parquet"``.
     """
     own = scene if isinstance(scene, Scene) else Scene(scene)
-    options |= {"vary": vary or {}, "measure": ",".join(measures) or None}
+    options |= {"vary": vary or {}, "measure": _keys(measures)}
     return call("sweep", own, out=os.fspath(folder), parquet=True, progress=progress, **options)
 
 
@@ -314,6 +314,10 @@ def figure(report: Report) -> str:
             _called("run", (report.scene,), {**options, "json": True}, None)
         drawn = sorted(pathlib.Path(options["out"]).glob("**/force-time*.svg"))
         return drawn[0].read_text(encoding="utf-8") if drawn else ""
+
+
+def _keys(measures: str | list[str] | tuple[str, ...]) -> str | None:
+    return measures if isinstance(measures, str) else ",".join(measures) or None
 
 
 def _column(measure: Mapping[str, Any]) -> str:

@@ -19,14 +19,14 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from ._scene import Scene
-from ._verbs import Result, Sweep, _called, _values, call
+from ._verbs import Result, Sweep, _called, _keys, _values, call
 
 
 def sweep(
     client: Any,
     scene: Any,
     vary: Mapping[str, Any],
-    measures: list[str] | tuple[str, ...] = (),
+    measures: str | list[str] | tuple[str, ...] = (),
     *,
     folder: str | os.PathLike[str],
     shards: int,
@@ -51,7 +51,7 @@ def sweep_to_parquet(
     client: Any,
     scene: Any,
     vary: Mapping[str, Any],
-    measures: list[str] | tuple[str, ...] = (),
+    measures: str | list[str] | tuple[str, ...] = (),
     *,
     folder: str | os.PathLike[str],
     shards: int,
@@ -111,7 +111,7 @@ def _solve(
     client: Any,
     scene: Any,
     vary: Mapping[str, Any],
-    measures: list[str] | tuple[str, ...],
+    measures: str | list[str] | tuple[str, ...],
     folder: str | os.PathLike[str],
     shards: int,
     retries: int,
@@ -126,7 +126,7 @@ def _solve(
     if own.files:
         raise ValueError(f"workers may not have {own.files[0]!r}: write its values into the scene")
     _write(text, own.text)
-    measure = ",".join(measures) or None
+    measure = _keys(measures)
     asked = {"vary": {name: _values(name, values, own) for name, values in vary.items()}}
     asked |= {"measure": measure, **options}
     jobs = [(str(text), str(home / f"shard-{at}"), f"{at}/{shards}", asked) for at in range(1, shards + 1)]

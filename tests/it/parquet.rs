@@ -145,9 +145,9 @@ fn what_is_missing_is_solved_again_and_all_else_is_left() {
     let sweep = [
         "sweep",
         "--vary",
-        "padding.maxwell.spring=5..80 MN/m,1000",
+        "padding.maxwell.spring=5..80 MN/m,100",
         "--vary",
-        "padding.kelvin.dashpot=1..16 kN s/m,525",
+        "padding.kelvin.dashpot=1..16 kN s/m,100",
         "--measure",
         "padding.peak-force",
         "--estimate",
@@ -172,7 +172,10 @@ fn what_is_missing_is_solved_again_and_all_else_is_left() {
     assert!(bytes() == before && fs::read(folder.join("result.json")).unwrap() == result);
     assert_eq!(fs::metadata(&all[0]).unwrap().modified().unwrap(), times[0]);
 
-    // Another sweep is refused.
+    // Another sweep is refused, and whatever else would replace the points.
+    let replacing = run(&["run", "--out", text(&folder)]);
+    assert_eq!(code(&replacing), 2);
+    assert!(said(&replacing).contains("of another sweep") && bytes() == before);
     let other = run(&[&sweep[..3], &["--parquet", "--out", text(&folder)]].concat());
     assert_eq!(code(&other), 2);
     assert!(said(&other).contains("of another sweep"), "{}", err(&other));

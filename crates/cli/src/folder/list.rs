@@ -108,6 +108,11 @@ impl List {
         Fingerprint::of(&path).is_ok_and(|print| listed.any(|own| own.1 == print))
     }
 
+    /// Whether points of a sweep are there, which are written while it is solved.
+    pub(super) fn has_points(&self, folder: &Path) -> bool {
+        self.files.iter().any(|own| is_of_points(&own.0) && folder.join(&own.0).exists())
+    }
+
     /// Removes the parts of writers that did not come to their end: those of the one that is listed, and
     /// what others left before they were.
     pub(super) fn tidy(&self, folder: &Path) -> io::Result<()> {
@@ -130,6 +135,11 @@ fn is_of_list(path: &Path) -> bool {
         let length = own.len().min(HEAD.len());
         own[..length] == HEAD.as_bytes()[..length]
     })
+}
+
+/// Whether a file of this name holds points of a sweep.
+pub(super) fn is_of_points(name: &str) -> bool {
+    name.ends_with(".parquet")
 }
 
 /// Whether a result may have this name: that of a file in the folder itself, with a known ending.

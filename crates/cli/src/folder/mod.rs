@@ -19,6 +19,7 @@ use crate::{
     part::{Fingerprint, Part, metadata, part_name, token},
     terminal::{WIDTH, message, print},
     text::wrapped,
+    verbs::sweep::ShardFault,
 };
 
 /// The file whose presence says that results are whole.
@@ -56,6 +57,11 @@ impl Folder {
         let folder = Self { path: path.to_owned(), is_new, _lock: lock(path)? };
         let list = List::read(path)?;
         list.tidy(path).map_err(unwritable(path))?;
+        let names: Vec<String> = names.into_iter().collect();
+        // Hours of work are no earlier result that another one replaces.
+        if list.has_points(path) && !names.iter().any(|own| list::is_of_points(own)) {
+            return Err(CliError::Shard { path: path.to_owned(), fault: ShardFault::Taken });
+        }
         refuse_foreign(path, &list, names.into_iter())?;
         Part::new(path, &part_name(&token(), 0), |_| Ok(())).map_err(unwritable(path))?;
         Ok(folder)

@@ -94,7 +94,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "NUMBER/OF", value_parser = place, requires = "out", conflicts_with_all = ["gradient", "enforce", "table"])]
     #[serde(skip)]
     pub(super) shard: Option<Place>,
-    /// Writes the points into the folder as Parquet, in files of 262 144 points, each whole as soon as it is there, in
+    /// Writes the points into the folder as Parquet, in files of 4096 to 262 144 points, each whole as soon as it is there, in
     /// place of everything else: for sweeps of any size, in the memory of one file. The same command goes on where it
     /// was broken off.
     #[cfg(feature = "parquet")]

@@ -38,8 +38,11 @@ use crate::{
     terminal::{Terminal, note},
 };
 
-/// Points of a file, whole groups of them: its rows are read at once, and some MB for each column are held meanwhile.
-const PART: usize = 1 << 18;
+/// The fewest and the most points of a file, whole groups of them: its rows are read at once, and some MB for each
+/// column are held meanwhile.
+const PART: [usize; 2] = [1 << 12, 1 << 18];
+/// As many files are written of a sweep as far as that goes, so that little is lost where it is broken off.
+const FILES: usize = 64;
 /// Reasons why points have no solution, and kinds of warnings, that are told; all are in the result.
 const MOST_TOLD: usize = 8;
 /// Digits of the extremes.
@@ -68,8 +71,10 @@ pub(super) fn written(
         Some(place) => points_of_shard(grid.len(), place.number, place.of),
         None => 0..grid.len(),
     };
-    let starts = all.clone().step_by(PART);
-    let parts = list(starts.map(|start| start..all.end.min(start + PART)));
+    let [fewest, most] = PART;
+    let length = (grid.len() / FILES).next_power_of_two().clamp(fewest, most);
+    let starts = all.clone().step_by(length);
+    let parts = list(starts.map(|start| start..all.end.min(start + length)));
     let names = parts.iter().map(file_name);
     let Some(mut folder) = Folder::wanted(arguments.output.out.as_deref(), names)? else {
         return Ok(Status::Done);
