@@ -83,8 +83,9 @@ def calls(
 
     Args:
         client: a ``dask.distributed.Client``.
-        jobs: of each the verb, its operands, and its options: ``("fit", (scene,), {"to": "drop-7.csv:head.acceleration"})``. Files have to
-            be seen by all workers, under the same names.
+        jobs: of each the verb, its operands, and its options:
+            ``("fit", (scene,), {"to": "drop-7.csv:head.acceleration"})``. Files have to be seen by all workers, under
+            the same names.
         retries, progress: as of `sweep`.
     """
     asked = list(jobs)

@@ -175,10 +175,13 @@ fn what_is_missing_is_solved_again_and_all_else_is_left() {
     // Another sweep is refused, and whatever else would replace the points.
     let replacing = run(&["run", "--out", text(&folder)]);
     assert_eq!(code(&replacing), 2);
-    assert!(said(&replacing).contains("of another sweep") && bytes() == before);
+    assert!(said(&replacing).contains("points of another") && bytes() == before);
     let other = run(&[&sweep[..3], &["--parquet", "--out", text(&folder)]].concat());
     assert_eq!(code(&other), 2);
-    assert!(said(&other).contains("of another sweep"), "{}", err(&other));
+    assert!(said(&other).contains("points of another"), "{}", err(&other));
+    let part = run(&[&sweep[..], &["--shard", "1/2", "--out", text(&folder)]].concat());
+    assert_eq!(code(&part), 2);
+    assert!(said(&part).contains("or shard in it"), "{}", err(&part));
     // A file that is broken is named, and nothing is written over it.
     fs::write(&all[2], &before[2][..5000]).unwrap();
     let broken = run(&whole);

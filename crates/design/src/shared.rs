@@ -27,6 +27,7 @@ pub(crate) fn exceeded(mut all: Vec<f64>, share: f64) -> f64 {
         clippy::cast_sign_loss,
         reason = "a position in the sample"
     )]
-    let at = ((share * all.len() as f64).ceil() as usize).saturating_sub(1);
+    // A product that rounding has left above a whole number is that number.
+    let at = ((share * all.len() as f64 * (1.0 - 1e-12)).ceil() as usize).saturating_sub(1);
     all.get(at).copied().unwrap_or(f64::NAN)
 }

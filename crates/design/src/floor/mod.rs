@@ -147,8 +147,8 @@ impl Stroke {
         };
         let (time, value) = match judged {
             Judged::SeverityIndex { exponent } if !self.kernel.is_fixed() => {
-                let end = LAST * time;
-                (end, value.max(self.asked_together(exponent, end)))
+                let together = self.asked_together(exponent, LAST * time);
+                if together.1 > value { together } else { (time, value) }
             }
             _ => (time, value),
         };
@@ -168,10 +168,10 @@ impl Stroke {
         (self.speed + 0.5 * self.gravity * time) * time - self.travel
     }
 
-    /// The least severity index that all instants up to `end` ask for together.
-    fn asked_together(&self, exponent: f64, end: f64) -> f64 {
-        let least = least_norm(&self.kernel, exponent, end, |time| self.missing(time));
-        (least / (self.mass * STANDARD_GRAVITY)).powf(exponent)
+    /// The last instant that tells, and the least severity index that all up to `end` ask for together.
+    fn asked_together(&self, exponent: f64, end: f64) -> (f64, f64) {
+        let (time, least) = least_norm(&self.kernel, exponent, end, |time| self.missing(time));
+        (time, (least / (self.mass * STANDARD_GRAVITY)).powf(exponent))
     }
 
     /// The least value that the instant `time` asks for.

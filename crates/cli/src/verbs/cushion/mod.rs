@@ -137,12 +137,16 @@ pub(crate) fn cushion(
     let mut asked = wanted.asked.clone();
     asked.threads = arguments.threads.map_or_else(all, NonZero::get);
     let pose = wanted.pose(&input, set, arguments.method.as_deref());
-    let mut found = solve(&wanted.platen, &asked, &*pose, &mut bar("cushion", terminal))?;
     let batches = Batches::of((arguments, &wanted), &scene, &input)?;
+    // Scattered drops are the most by far.
+    let plain = if batches.is_some() { 0.05 } else { 1.0 };
+    let mut show = bar("cushion", (0.0, plain), terminal);
+    let mut found = solve(&wanted.platen, &asked, &*pose, &mut show)?;
     if batches.is_some() {
         let scattered = wanted.scattered((&scene, &input), arguments, &*pose);
         let scattered = Scattered { share: arguments.robust, pose: &*scattered };
-        with_scatter(&mut found, &asked, &*pose, scattered, &mut bar("scatter", terminal))?;
+        let mut show = bar("scatter", (plain, 1.0), terminal);
+        with_scatter(&mut found, &asked, &*pose, scattered, &mut show)?;
     }
     drop(pose);
     let is_unsolved = |own: &Known| *own == Known::Unsolved;
@@ -158,10 +162,17 @@ pub(crate) fn cushion(
     })
 }
 
-/// Shows how far some work is.
-fn bar(name: &'static str, terminal: Terminal) -> impl FnMut(usize, usize) -> ControlFlow<()> {
+/// Shows how far some work is, which goes from one share of all to another.
+fn bar(
+    name: &'static str,
+    (from, to): (f64, f64),
+    terminal: Terminal,
+) -> impl FnMut(usize, usize) -> ControlFlow<()> {
     let mut bar = Bar::new(name, 0.0, terminal.error.attended);
-    move |done, of| bar.show(done as f64 / of as f64, || format!("{done} of {of}"))
+    move |done, of| {
+        let share = from + (to - from) * done as f64 / of as f64;
+        bar.show(share, || format!("{done} of {of}"))
+    }
 }
 
 impl Study for Drawn {

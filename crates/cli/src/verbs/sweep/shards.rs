@@ -64,7 +64,7 @@ pub(crate) enum ShardFault {
     )]
     Changed,
     /// There is a shard of another sweep where this one is to be written.
-    #[error("there are points of another sweep in it")]
+    #[error("there are points of another sweep or shard in it")]
     Taken,
     /// It is there twice.
     #[error("its shard is there twice")]

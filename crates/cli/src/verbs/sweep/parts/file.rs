@@ -105,8 +105,8 @@ fn written(varied: &Varied, grid: &Grid, footer: &Footer, report: &SweepReport) 
     while let Some(mut column) = rows.next_column()? {
         match (column.untyped(), columns.next()) {
             (ColumnWriter::DoubleColumnWriter(out), Some(Cells::Numbers(all))) => {
-                let is_there = list(all.iter().map(|own| i16::from(!own.is_nan())));
-                let there = list(all.into_iter().filter(|own| !own.is_nan()));
+                let is_there = list(all.iter().map(|own| i16::from(own.is_finite())));
+                let there = list(all.into_iter().filter(|own| own.is_finite()));
                 out.write_batch(&there, Some(&is_there), None)?;
             }
             (ColumnWriter::ByteArrayColumnWriter(out), Some(Cells::Words(all))) => {

@@ -30,7 +30,7 @@ use crate::{
     error::{CliError, Status, unwritable},
     folder::{Folder, RESULT},
     input::title,
-    numbers::counted,
+    numbers::{bound, counted},
     origin,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
     progress::Bar,
@@ -79,7 +79,7 @@ pub(super) fn written(
     let Some(mut folder) = Folder::wanted(arguments.output.out.as_deref(), names)? else {
         return Ok(Status::Done);
     };
-    let there = there(&folder, &wanted.sweep)?;
+    let there = there(&folder, &wanted.sweep, &parts)?;
     let is_there = |part: &Range<usize>| there.iter().any(|own| own.points == *part);
     let (known, missing): (Vec<_>, Vec<_>) = parts.into_iter().partition(is_there);
     if !known.is_empty() {
@@ -93,9 +93,7 @@ pub(super) fn written(
     if !missing.is_empty() {
         let options = SweepOptions { threads: arguments.threads(), estimates: wanted.estimates };
         let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
-        let mut show = |done: usize, of: usize| {
-            bar.show(done as f64 / of as f64, || format!("{done} of {of}"))
-        };
+        let mut show = |done: usize, of: usize| bar.count(done, of);
         let take = |part: &Range<usize>, report| {
             let footer = Footer::of(&wanted.sweep, part.clone(), &report);
             let name = file_name(part);
@@ -134,11 +132,15 @@ fn file_name(points: &Range<usize>) -> String {
 }
 
 /// What is there already, whole; a folder with anything else is refused.
-fn there(folder: &Folder, sweep: &str) -> Result<Vec<Footer>, CliError> {
+fn there(folder: &Folder, sweep: &str, parts: &[Range<usize>]) -> Result<Vec<Footer>, CliError> {
     let taken = || CliError::Shard { path: folder.path().to_owned(), fault: ShardFault::Taken };
     let names = folder.whole()?.into_iter().filter(|own| own != RESULT);
     let footers = names.map(|own| Footer::read(&folder.path().join(own)));
-    footers.map(|own| own.filter(|own| own.sweep == sweep).ok_or_else(taken)).collect()
+    footers
+        .map(|own| {
+            own.filter(|own| own.sweep == sweep && parts.contains(&own.points)).ok_or_else(taken)
+        })
+        .collect()
 }
 
 /// The points that are there.
@@ -188,6 +190,14 @@ impl Study for Parts<'_> {
         }
         text.items([solved(sum.instantiated, sum.points)]);
         text.items(self.kept());
+        text.items(sum.checked.map(|(points, most)| {
+            let most = bound(most);
+            format!("{points} of them solved in full as well: the largest difference is {most}")
+        }));
+        if sum.cut > 0 {
+            let cut = counted(sum.cut, "value");
+            text.items([format!("{cut} may still grow after the end of their runs")]);
+        }
         text.items(sum.left_out.iter().map(summary::LeftOut::in_words));
         text.items(told(&sum.failed, |own| {
             format!("{} without a solution: {}", counted(own.points, "point"), own.text)
@@ -262,6 +272,9 @@ impl Study for Parts<'_> {
             limits,
             failed: &self.sum.failed,
             warnings: &self.sum.warnings,
+            checked: self.sum.checked.map(|own| own.0),
+            largest_difference: self.sum.checked.map(|own| own.1),
+            cut: self.sum.cut,
             left_out: &self.sum.left_out,
             parquet: &self.files,
         }

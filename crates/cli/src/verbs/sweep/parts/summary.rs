@@ -25,6 +25,10 @@ pub(super) struct Summary {
     pub(super) limits: Vec<Kept>,
     /// What runs are warned of: by the code of each warning what it says at the first point.
     pub(super) warnings: Vec<Counted>,
+    /// How many instantiated points were solved in full as well, and the largest difference there.
+    pub(super) checked: Option<(usize, f64)>,
+    /// How many values may still grow after the end of their runs.
+    pub(super) cut: usize,
     /// What was left out of all points, where the scene allows that.
     pub(super) left_out: Option<LeftOut>,
 }
@@ -99,6 +103,9 @@ impl Summary {
             extremes: list((0..report.columns.len()).map(extremes)),
             limits: list((0..report.limits.len()).map(kept)),
             left_out: report.partial.as_ref().map(LeftOut::of),
+            checked: (!report.checked.is_empty())
+                .then_some((report.checked.len(), report.largest_difference)),
+            cut: report.cut.len(),
             ..Self::default()
         };
         failed.for_each(|one| count(&mut own.failed, one));
@@ -121,6 +128,12 @@ impl Summary {
             own.fail += other.fail;
             own.undecided += other.undecided;
         }
+        // Those of the whole sweep, whichever part tells them.
+        self.checked = match (self.checked, other.checked) {
+            (Some(own), Some(other)) => Some((own.0.max(other.0), own.1.max(other.1))),
+            (own, other) => own.or(other),
+        };
+        self.cut += other.cut;
         self.left_out = self.left_out.take().or(other.left_out);
         other.failed.into_iter().for_each(|one| count(&mut self.failed, one));
         other.warnings.into_iter().for_each(|one| count(&mut self.warnings, one));
@@ -136,9 +149,17 @@ fn widest(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
     [one[0].min(other[0]), one[1].max(other[1])]
 }
 
+/// So many kinds are told apart: reasons why points fail may have numbers of their own, as many as there are points.
+const MOST_KINDS: usize = 100;
+/// All other kinds together.
+const OTHERS: &str = "others";
+
 fn count(all: &mut Vec<Counted>, own: Counted) {
-    match all.iter_mut().find(|known| known.code == own.code) {
+    let is_full = all.len() >= MOST_KINDS;
+    let is_it = |known: &&mut Counted| known.code == own.code || (is_full && known.code == OTHERS);
+    match all.iter_mut().rev().find(is_it) {
         Some(known) => known.points += own.points,
+        None if is_full => all.push(Counted { code: OTHERS.to_owned(), ..own }),
         None => all.push(own),
     }
 }
