@@ -9,21 +9,10 @@ use parquet::{
 };
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, json, run, said, text};
-
-/// A pad that slow drops leave whole, and fast ones press through; the fastest are beyond its law.
-const SCENE: &str = r#"
-[values]
-K = "50 kN/m"
-[nodes]
-head = { mass = "5 kg", velocity = "6 m/s" }
-[elements]
-pad = { between = ["head", "ground"], kelvin-voigt = { spring = "K", dashpot = "80 N s/m" }, thickness = "3 cm" }
-[run]
-duration = "40 ms"
-[limits]
-head.peak-acceleration = "120 g"
-"#;
+use crate::{
+    cli::{code, err, file, json, run, said, text},
+    shards::SOFT,
+};
 
 /// The headings and the cells of all rows of some files; blank where there is nothing.
 fn rows(files: &[String]) -> (Vec<String>, Vec<Vec<String>>) {
@@ -70,7 +59,7 @@ fn of_csv(csv: &str, is_of_words: impl Fn(&str) -> bool) -> (Vec<String>, Vec<Ve
 #[test]
 fn the_numbers_are_those_of_the_table_to_the_bit() {
     let room = TempDir::new().unwrap();
-    let scene = file(&room, "soft.toml", SCENE);
+    let scene = file(&room, "soft.toml", SOFT);
     let sweep = [
         "sweep",
         text(&scene),

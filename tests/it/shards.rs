@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use crate::cli::{code, err, file, json, out, run, said, text};
 
 /// A pad that slow drops leave whole, and fast ones press through.
-const SOFT: &str = r#"
+pub(crate) const SOFT: &str = r#"
 [values]
 K = "50 kN/m"
 [nodes]
