@@ -18,8 +18,9 @@
 //! | HIC | as no window of the length `τ` has more than `m g0 HIC^0.4 τ^0.6` of impulse | `(v0/g0)^2.5 (3 v0/(8 D))^1.5` at the same `T` |
 //!
 //! The gravity `g` adds `g` to the first. No pad, of whatever laws and parts without mass, is better. On a fixed
-//! support a force reaches each of them, so they are the least, but for a HIC whose longest window is shorter than `T`;
-//! under gravity the weight that is borne after the stop is not counted.
+//! support a force reaches each of them, so they are the least; under gravity the weight that is borne after the stop is
+//! not counted. Where windows are shorter than `T` the force is the one of a full window over and over: no window across
+//! the end of one has more than `τ^0.6`, as `(a + b)^0.6 + (c − a)^0.6 ≥ c^0.6 + b^0.6` for `a + b ≤ c`.
 //!
 //! # References
 //!
@@ -142,8 +143,7 @@ impl Stroke {
         let (time, value) = if found.1 > best.1 { found } else { (best.0, best.1) };
         let is_whole = match judged {
             Judged::PeakAcceleration | Judged::PeakForce => true,
-            Judged::SeverityIndex { .. } => self.gravity == 0.0,
-            Judged::Hic { cap } => self.gravity == 0.0 && time <= cap,
+            Judged::SeverityIndex { .. } | Judged::Hic { .. } => self.gravity == 0.0,
         };
         let (time, value) = match judged {
             Judged::SeverityIndex { exponent } if !self.kernel.is_fixed() => {
