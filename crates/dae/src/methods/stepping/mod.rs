@@ -28,6 +28,7 @@ mod newton;
 mod ordering;
 mod recursion;
 mod spans;
+mod stack;
 mod start;
 mod terms;
 mod walk;

@@ -5,8 +5,13 @@ use std::time::Instant;
 use diffsol::{DefaultDenseMatrix, FaerSparseMat, NalgebraMat, VectorRef, matrix::MatrixRef};
 
 use super::{
-    Algebra, Integrator, Scheme, Stop, Walk, algebra::DENSE_UP_TO, balance::Balance,
-    explicit::is_stiff, failure::Site, start,
+    Algebra, Integrator, Scheme, Stop, Walk,
+    algebra::DENSE_UP_TO,
+    balance::Balance,
+    explicit::is_stiff,
+    failure::Site,
+    stack::{ROWS, StackMatrix},
+    start,
 };
 use crate::{
     Observer, Outcome, Run, SolveError, Statistics, System, Trajectory, events::Watch,
@@ -32,13 +37,18 @@ pub(in crate::methods) fn integrate<S: Scheme>(
 /// The matrices to work with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum World {
+    Stack,
     Dense,
     Sparse,
 }
 
 impl World {
     fn of(system: &System) -> Self {
-        if system.len() <= DENSE_UP_TO { Self::Dense } else { Self::Sparse }
+        match system.len() {
+            0..=ROWS => Self::Stack,
+            0..=DENSE_UP_TO => Self::Dense,
+            _ => Self::Sparse,
+        }
     }
 }
 
@@ -67,11 +77,12 @@ fn integrate_in<S: Scheme>(
     let ended = if system.is_empty() || run.t_end == 0.0 {
         walk.still()
     } else {
+        if world != World::Sparse {
+            walk.pieces.reserve(USUAL_STEPS);
+        }
         match world {
-            World::Dense => {
-                walk.pieces.reserve(USUAL_STEPS);
-                walk.spans::<S, NalgebraMat<f64>>()
-            }
+            World::Stack => walk.spans::<S, StackMatrix>(),
+            World::Dense => walk.spans::<S, NalgebraMat<f64>>(),
             World::Sparse => walk.spans::<S, FaerSparseMat<f64>>(),
         }
     };
@@ -270,12 +281,17 @@ mod tests {
             let trajectory = integrate_in::<S>(world, system, &run, &mut Silent).unwrap();
             trajectory.dense.sample(system, &times)
         };
-        let (dense, sparse) = (sample(World::Dense), sample(World::Sparse));
-        dense.iter().zip(&sparse).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        let dense = sample(World::Dense);
+        let mut others = vec![sample(World::Sparse)];
+        if system.len() <= ROWS {
+            others.push(sample(World::Stack));
+        }
+        let differences = others.iter().flatten().zip(dense.iter().cycle());
+        differences.map(|(other, dense)| (other - dense).abs()).fold(0.0, f64::max)
     }
 
     #[test]
-    fn sparse_and_dense_matrices_give_one_result() {
+    fn all_matrices_give_one_result() {
         for problem in problems::all() {
             let mut found = vec![
                 difference::<Bdf>(&problem),
