@@ -3,7 +3,7 @@
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 use diffsol::{DenseMatrix, Matrix, Scale, VectorIndex, matrix::MatrixCommon};
-use diffsol_la::{Dense, DenseRef, LaError};
+use diffsol_la::{Dense, DenseRef, LaError, matrix::MAX_SMALL_COLS};
 
 use super::{
     Column, Indices, ROWS, Single, StackFactor, StackVector,
@@ -234,7 +234,8 @@ impl DenseMatrix for StackMatrix {
     }
 
     fn mul_cols_by(&mut self, count: usize, right: &[f64]) {
-        let old = self.columns.clone();
+        let mut old = [[0.0; ROWS]; MAX_SMALL_COLS];
+        old[..count].copy_from_slice(&self.columns[..count]);
         for (own, factors) in self.columns.iter_mut().zip(right.chunks_exact(count)) {
             *own = [0.0; ROWS];
             for (old, factor) in old.iter().zip(factors) {
