@@ -32,10 +32,12 @@ pub(crate) fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
-/// The options of a verb: of each its name, whether it is repeated for each value, the SI unit of its numbers, and its
-/// words; `None` where there is no such verb.
+/// An option: its name, whether it is repeated for each value, the SI unit of its numbers, and its words.
+type VerbOption = (String, bool, &'static str, Vec<String>);
+
+/// The options of a verb; `None` where there is no such verb.
 #[pyfunction]
-pub(crate) fn options(verb: &str) -> Option<Vec<(String, bool, &'static str, Vec<String>)>> {
+pub(crate) fn options(verb: &str) -> Option<Vec<VerbOption>> {
     let all = dashpot_cli::options(verb)?.into_iter();
     Some(all.map(|own| (own.name, own.is_repeated, own.unit, own.words)).collect())
 }
