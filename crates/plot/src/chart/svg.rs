@@ -420,6 +420,13 @@ mod tests {
         for text in ["deepest 17.5 mm", "thickness 20 mm", "ceiling (off the axis)"] {
             assert!(svg.contains(text), "{text}");
         }
-        assert_eq!(svg.matches("<circle").count(), 1);
+        // The edge of paper is drawn first, of the same disc and text.
+        let (below, own) = svg.split_once("<g class=\"labels\"").unwrap();
+        let halo = below.rsplit("<g class=\"halo\"").next().unwrap();
+        for part in [halo, own] {
+            assert_eq!(part.matches("<circle").count(), 1);
+            assert_eq!(part.matches("deepest 17.5 mm").count(), 1);
+        }
+        assert!(!svg.contains("paint-order"));
     }
 }
