@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _dashpot
 from ._errors import DashpotWarning, RunError, SceneError, warn
-from ._options import arguments, in_python
+from ._options import arguments, in_python, options_of
 from ._scene import Progress, Report, Scene, keys
 
 
@@ -48,9 +48,11 @@ def call(
             list of them, ``True`` or ``False`` for what is on or off, and for ``vary`` a dictionary of names and values.
 
     Raises:
-        TypeError: the verb has no such option.
+        TypeError: the verb has no such option, or no object.
         SceneError, RunError: as the command ends with exit code 2 and 1.
     """
+    if "json" not in (options_of(verb) or {"json"}):
+        raise TypeError(f"`dashpot {verb}` has no `--json`, and so no object")
     status, output, said = _answer(verb, operands, {**options, "json": True}, progress)
     found = json.loads(output)
     _warn(verb, operands, said, found)

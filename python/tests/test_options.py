@@ -49,6 +49,11 @@ def test_faults_of_options_name_them_as_python_does():
     assert "'run'" in found.value.faults[0]["help"]
 
 
+def test_a_verb_without_an_object_says_so():
+    with pytest.raises(TypeError, match="`dashpot list` has no `--json`"):
+        dashpot.call("list", "methods")
+
+
 def test_an_unknown_number_names_those_that_there_are():
     for value in (1.0, "1 m/s"):
         with pytest.raises(dashpot.SceneError) as found:
