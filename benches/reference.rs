@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench reference` prints criterion's times, and before them a table of what each
 //! contender reaches: true error of the padding's force, steps, and the ratios that matter.
-#![allow(
+#![expect(
     clippy::expect_used,
     clippy::print_stdout,
     reason = "a benchmark prints its table and has no one to report errors to"

@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench equal_error` prints a table for each problem, and with `UPDATE_DOCS=1` writes
 //! them into `docs/benchmarks.md`. Words after `--` pick the problems whose titles have them.
-#![allow(
+#![expect(
     clippy::print_stdout,
     clippy::print_stderr,
     reason = "a benchmark prints its tables, and on the way how far it is"

@@ -3,7 +3,7 @@
 //! `cargo bench --bench sweep` prints the CPU time of a scene on one core, as a ratio to that by hand. By hand a
 //! scene of the reference impact is a matrix exponential and 500 products with it, after each of which force and
 //! deformation are looked at; it finds the largest sample, ours the largest value. The drop by hand is in `foam`.
-#![allow(
+#![expect(
     clippy::expect_used,
     clippy::print_stdout,
     reason = "a benchmark prints its table and has no one to report errors to"

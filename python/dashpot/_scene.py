@@ -14,6 +14,7 @@ import numpy as np
 
 from . import _dashpot
 from ._errors import DashpotWarning, warn
+from ._options import checked, closest
 from ._toml import to_toml
 
 Progress = Callable[[float], object]
@@ -113,6 +114,7 @@ class Scene:
         """A value in SI units of a number of it, with its unit: read back, it is the same to the bit."""
         return self._own.written(name, float(value))
 
+    @checked
     def run(
         self,
         method: str | None = None,
@@ -122,7 +124,7 @@ class Scene:
         rtol: float | None = None,
         estimate: bool = True,
         budget: int | None = None,
-        measures: Iterable[str] = (),
+        measures: str | Iterable[str] = (),
         sample: int = 500,
         seed: int = 1,
         floor: bool = False,
@@ -136,7 +138,7 @@ class Scene:
             "rtol": rtol,
             "estimate": estimate,
             "budget": budget,
-            "measures": list(measures),
+            "measures": keys(measures),
             "sample": sample,
             "seed": seed,
             "floor": floor,
@@ -160,9 +162,8 @@ class Report(Mapping[str, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         own = self._own
-        measures = [own.measure(key) for key in own.keys()]
-        of_run = (own.json(), own.method, own.end, own.wall, own.warnings)
-        told = _Told(self.scene, self._asked, measures, *of_run)
+        of_run = (own.keys(), own.measures(), own.json(), own.method, own.end, own.wall, own.warnings)
+        told = _Told(self.scene, self._asked, *of_run)
         return Report, (self.scene, told, self._asked)
 
     def __getitem__(self, key: str) -> Any:
@@ -249,7 +250,8 @@ class _Told:
 
     scene: Scene
     asked: Mapping[str, Any]
-    measures: list[Any]
+    told: list[str]
+    all: list[Any]
     text: str
     method: str
     end: float
@@ -257,13 +259,16 @@ class _Told:
     warnings: list[tuple[str, str]]
 
     def keys(self) -> list[str]:
-        return [own.key for own in self.measures]
+        return self.told
+
+    def measures(self) -> list[Any]:
+        return self.all
 
     def measure(self, key: str) -> Any:
-        for own in self.measures:
+        for own in self.all:
             if own.key == key:
                 return own
-        return self._again.measure(key)
+        raise KeyError(f"there is no measure {key!r}{closest(key, [own.key for own in self.all])}")
 
     def json(self) -> str:
         return self.text
@@ -316,6 +321,11 @@ def _unpickled(text: str, file: str | None, values: dict[str, Any]) -> Scene:
         warnings.simplefilter("ignore", DashpotWarning)
         Scene.__init__(scene, None, values, text=text, _file=file)
     return scene
+
+
+def keys(measures: str | Iterable[str]) -> list[str]:
+    """Keys of measures; those of one text have commas between them."""
+    return [own.strip() for own in measures.split(",")] if isinstance(measures, str) else list(measures)
 
 
 def _written(scene: Any, name: str, value: Any) -> str:

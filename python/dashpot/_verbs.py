@@ -15,11 +15,8 @@ import numpy as np
 
 from . import _dashpot
 from ._errors import DashpotWarning, RunError, SceneError, warn
-from ._scene import Progress, Report, Scene
-
-
-# Options that are on or off, in words.
-_ON_OR_OFF = {"--shift", "--offset", "--estimate"}
+from ._options import arguments, in_python, options_of
+from ._scene import Progress, Report, Scene, keys
 
 
 class Result(dict[str, Any]):
@@ -47,12 +44,15 @@ def call(
 
     Args:
         operands: paths and words; a `Scene` stands for its text.
-        options: those of the command, with ``_`` for dashes: a text or number as it is, ``True`` for a switch, a list
-            for one that is repeated, and for ``vary`` a dictionary of names and values.
+        options: those of the command, with ``_`` for dashes (and ``from_``, where it is a word of Python): a text, a number in SI units, a
+            list of them, ``True`` or ``False`` for what is on or off, and for ``vary`` a dictionary of names and values.
 
     Raises:
+        TypeError: the verb has no such option, or no object.
         SceneError, RunError: as the command ends with exit code 2 and 1.
     """
+    if "json" not in (options_of(verb) or {"json"}):
+        raise TypeError(f"`dashpot {verb}` has no `--json`, and so no object")
     status, output, said = _answer(verb, operands, {**options, "json": True}, progress)
     found = json.loads(output)
     _warn(verb, operands, said, found)
@@ -73,12 +73,14 @@ def _answer(
     texts: dict[str, str] = {}
     words = [_operand(own, texts) for own in operands]
     scene = next((own for own in operands if isinstance(own, Scene)), None)
-    arguments = [verb, *words]
-    for name, value in options.items():
-        arguments += _option("--" + name.replace("_", "-"), value, scene)
-    status, output, said = _dashpot.call(arguments, texts, progress)
-    errors = [own for own in said if own["tone"] == "error"]
+    own = arguments(verb, options, scene)
+    status, output, said = _dashpot.call([verb, *words, *own], texts, progress)
     if status in (1, 2):
+        errors = [
+            {**own, "message": in_python(verb, own["message"]), "help": in_python(verb, own["help"])}
+            for own in said
+            if own["tone"] == "error"
+        ]
         raise (SceneError if status == 2 else RunError)(errors)
     return status, output, said
 
@@ -121,29 +123,6 @@ def _operand(operand: Any, texts: dict[str, str]) -> str:
         texts[name] = operand.text
         return name
     return os.fspath(operand)
-
-
-def _option(flag: str, value: Any, scene: Scene | None) -> list[str]:
-    if isinstance(value, bool) and flag in _ON_OR_OFF:
-        value = "on" if value else "off"
-    if value is None or value is False:
-        return []
-    if value is True:
-        return [flag]
-    if isinstance(value, Mapping):
-        return [f"{flag}={key}={_values(key, own, scene)}" for key, own in value.items()]
-    if isinstance(value, (list, tuple)):
-        return [f"{flag}={own}" for own in value]
-    return [f"{flag}={value}"]
-
-
-def _values(name: str, value: Any, scene: Scene | None) -> str:
-    if isinstance(value, str):
-        return value
-    own = np.asarray(value).ravel().tolist()
-    if all(isinstance(one, str) for one in own) or scene is None:
-        return ",".join(map(str, own))
-    return ",".join(scene.written(name, one) for one in own)
 
 
 def _verb(name: str, doc: str) -> Any:
@@ -275,8 +254,7 @@ def sweep(
         Arrays over the grid; equal to the bit on any number of threads.
     """
     own = scene if isinstance(scene, Scene) else Scene(scene)
-    measure = _keys(measures)
-    return Sweep(call("sweep", own, vary=vary or {}, measure=measure, progress=progress, **options))
+    return Sweep(call("sweep", own, progress=progress, **_asked(vary, measures), **options))
 
 
 def sweep_to_parquet(
@@ -300,9 +278,11 @@ def sweep_to_parquet(
     Returns:
         What is known of all points: counts, extremes, warnings, and the names of the files under ``"parquet"``.
     """
+    if not isinstance(folder, (str, os.PathLike)):
+        raise TypeError(f"`folder`, the second argument, is a path, not {_kind(folder)}: write (scene, folder, vary, measures)")
     own = scene if isinstance(scene, Scene) else Scene(scene)
-    options |= {"vary": vary or {}, "measure": _keys(measures)}
-    return call("sweep", own, out=os.fspath(folder), parquet=True, progress=progress, **options)
+    asked = _asked(vary, measures)
+    return call("sweep", own, out=folder, parquet=True, progress=progress, **asked, **options)
 
 
 def figure(report: Report) -> str:
@@ -316,8 +296,14 @@ def figure(report: Report) -> str:
         return drawn[0].read_text(encoding="utf-8") if drawn else ""
 
 
-def _keys(measures: str | list[str] | tuple[str, ...]) -> str | None:
-    return measures if isinstance(measures, str) else ",".join(measures) or None
+def _asked(vary: Any, measures: Any) -> dict[str, Any]:
+    if not isinstance(vary, (Mapping, str, type(None))):
+        raise TypeError(f"`vary` is a dictionary of names and their values, not {_kind(vary)}; measures come after it")
+    return {"vary": vary or None, "measure": keys(measures)}
+
+
+def _kind(value: Any) -> str:
+    return f"a {type(value).__name__}"
 
 
 def _column(measure: Mapping[str, Any]) -> str:

@@ -18,8 +18,9 @@ import pathlib
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from ._scene import Scene
-from ._verbs import Result, Sweep, _called, _keys, _values, call
+from ._options import values as written
+from ._scene import Scene, keys
+from ._verbs import Result, Sweep, _called, call
 
 
 def sweep(
@@ -127,9 +128,8 @@ def _solve(
     if own.files:
         raise ValueError(f"workers may not have {own.files[0]!r}: write its values into the scene")
     _write(text, own.text)
-    measure = _keys(measures)
-    asked = {"vary": {name: _values(name, values, own) for name, values in vary.items()}}
-    asked |= {"measure": measure, **options}
+    asked = {"vary": {name: written(name, values, own) for name, values in vary.items()}}
+    asked |= {"measure": keys(measures), **options}
     jobs = [(str(text), str(home / f"shard-{at}"), f"{at}/{shards}", asked) for at in range(1, shards + 1)]
     futures = client.map(_shard, jobs, pure=False, retries=retries)
     _told(futures, progress)

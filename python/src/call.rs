@@ -32,6 +32,16 @@ pub(crate) fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
+/// An option: its name, whether it is repeated for each value, the SI unit of its numbers, and its words.
+type VerbOption = (String, bool, &'static str, Vec<String>);
+
+/// The options of a verb; `None` where there is no such verb.
+#[pyfunction]
+pub(crate) fn options(verb: &str) -> Option<Vec<VerbOption>> {
+    let all = dashpot_cli::options(verb)?.into_iter();
+    Some(all.map(|own| (own.name, own.is_repeated, own.unit, own.words)).collect())
+}
+
 /// Does what the command does with these arguments, which begin with the verb: the exit code, what it would have
 /// printed, and what it said besides. A name in `texts` stands for a file with that text.
 ///

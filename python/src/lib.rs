@@ -17,7 +17,7 @@ mod _dashpot {
     #[pymodule_export]
     use crate::arrow::Columns;
     #[pymodule_export]
-    use crate::call::{call, version};
+    use crate::call::{call, options, version};
     #[pymodule_export]
     use crate::report::{Measure, Report};
     #[pymodule_export]

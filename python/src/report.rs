@@ -140,6 +140,11 @@ impl Report {
         self.told(|own| !matches!(own, Warning::Network(own) if known.contains(own)))
     }
 
+    /// All measures that it has, told or not.
+    fn measures(&self) -> Vec<Measure> {
+        self.run.report.measures.iter().map(Measure::from).collect()
+    }
+
     /// The measure of this key.
     fn measure(&self, key: &str) -> PyResult<Measure> {
         match self.run.report.measure(key) {

@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, open, read_scene};
+use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, Tone, open, read_scene};
 use dashpot_network::{Assembly, parameters::Dimension};
 use dashpot_scene::Tunables;
 use dashpot_units::si_unit;
@@ -115,7 +115,10 @@ impl Scene {
     /// A value of the number of this name as a text that is read back to the same bits.
     fn written(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<String> {
         let all = self.tunables(py)?;
-        let at = all.find(name).map_err(|fault| sentence(py, Kind::Input, &fault.to_string()))?;
+        let at = all.find(name).map_err(|fault| {
+            let said = Said { help: fault.help(), ..Said::plain(Tone::Error, fault.to_string()) };
+            failure(py, Kind::Input, &[said])
+        })?;
         let dimension = all.all()[at].dimension.filter(|own| *own != Dimension::NUMBER);
         let unit = dimension.map_or_else(String::new, |own| format!(" {}", si_unit(own)));
         Ok(format!("{value:?}{unit}"))

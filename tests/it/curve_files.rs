@@ -114,7 +114,7 @@ fn a_sweep_says_what_was_asked_of_it() {
 }
 
 #[test]
-fn what_an_elastic_pad_absorbs_is_zero_in_a_sweep_as_in_a_run() {
+fn what_an_elastic_pad_takes_up_is_zero_in_a_sweep_as_in_a_run() {
     let (folder, scene) = folder();
     let own = folder.path().join("sweep");
     let arguments = ["sweep", &scene, "--vary", "V=0.5..1 m/s,3", "--table", "always", "--out"];

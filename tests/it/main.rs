@@ -1,5 +1,5 @@
 //! Integration tests of the whole chain, as one binary.
-#![allow(
+#![expect(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::cast_possible_truncation,

@@ -2,6 +2,12 @@
 //! after an interruption.
 
 use std::{collections::BTreeMap, fs, fs::File, path::Path};
+#[cfg(unix)]
+use std::{
+    process::{Command, Stdio},
+    thread::sleep,
+    time::Duration,
+};
 
 use parquet::{
     file::reader::{FileReader, SerializedFileReader},
@@ -10,7 +16,7 @@ use parquet::{
 use tempfile::TempDir;
 
 use crate::{
-    cli::{code, err, file, json, run, said, text},
+    cli::{code, err, file, json, out, run, said, text},
     shards::SOFT,
 };
 
@@ -71,6 +77,10 @@ fn the_numbers_are_those_of_the_table_to_the_bit() {
     let folder = room.path().join("points");
     let written = run(&[&sweep[..], &["--parquet", "--out", text(&folder)]].concat());
     assert_eq!(code(&written), 0, "{}", err(&written));
+    let told = out(&written).split_whitespace().collect::<Vec<_>>().join(" ");
+    let first =
+        "warning `pulls` at 180 of 270 points, first at head.velocity = 0.5 m/s, K = 50 kN/m:";
+    assert!(told.contains(first), "{told}");
     let (mut header, mut found) = rows(&parquet_files(&folder));
     let table = run(&[&sweep[..], &["--table", "never"]].concat());
     let is_limit = |name: &str| name.contains("<=");
@@ -168,9 +178,12 @@ fn what_is_missing_is_solved_again_and_all_else_is_left() {
     let other = run(&[&sweep[..3], &["--parquet", "--out", text(&folder)]].concat());
     assert_eq!(code(&other), 2);
     assert!(said(&other).contains("points of another"), "{}", err(&other));
+    let differing = "vary (there padding.maxwell.spring=5..80 MN/m,100; padding.kelvin.dashpot=1..16 kN s/m,100, here";
+    assert!(said(&other).contains(differing), "{}", err(&other));
     let part = run(&[&sweep[..], &["--shard", "1/2", "--out", text(&folder)]].concat());
     assert_eq!(code(&part), 2);
-    assert!(said(&part).contains("or shard in it"), "{}", err(&part));
+    let differing = "or shard in it, which differs in shard (there all, here 1/2)";
+    assert!(said(&part).contains(differing), "{}", err(&part));
     // A file that is broken is named, and nothing is written over it.
     fs::write(&all[2], &before[2][..5000]).unwrap();
     let broken = run(&whole);
@@ -191,4 +204,46 @@ fn the_files_of_shards_are_parts_of_the_whole() {
     let whole = points("whole", &[]);
     assert_eq!(whole.len(), 300);
     assert!([points("1", &["--shard", "1/2"]), points("2", &["--shard", "2/2"])].concat() == whole);
+}
+
+/// An interrupt leaves the files that are whole, and tells how many points are in them.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_tells_what_is_kept() {
+    let room = TempDir::new().unwrap();
+    let folder = room.path().join("points");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_dashpot"))
+        .args(["sweep", "--vary", "padding.maxwell.spring=5..80 MN/m,1000"])
+        .args(["--vary", "padding.kelvin.dashpot=1..16 kN s/m,1000", "--estimate", "off"])
+        .args(["--parquet", "--threads", "1", "--out", text(&folder)])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !folder.exists() || parquet_files(&folder).is_empty() {
+        assert!(child.try_wait().unwrap().is_none());
+        sleep(Duration::from_millis(5));
+    }
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(code(&ended), 1, "{}", err(&ended));
+    let kept = rows(&parquet_files(&folder)).1.len();
+    assert!((1..1_000_000).contains(&kept));
+    let told = said(&ended);
+    assert!(told.contains(&format!("interrupted: {kept} of 1000000 points are kept")), "{told}");
+    assert!(told.contains("the same command goes on from there"), "{told}");
+    assert!(!folder.join("result.json").exists());
+}
+
+#[test]
+fn words_do_not_stand_under_headings_of_the_results() {
+    let room = TempDir::new().unwrap();
+    let table = file(&room, "designs.csv", "warnings,head.velocity [m/s]\na,5\nb,6\n");
+    let folder = room.path().join("points");
+    let out = ["--parquet", "--out", text(&folder)];
+    let refused = run(&[&["sweep", "--points", text(&table)], &out[..]].concat());
+    assert_eq!(code(&refused), 2, "{}", err(&refused));
+    assert!(said(&refused).contains("a column `warnings` of their own"), "{}", err(&refused));
+    assert!(!folder.exists());
 }

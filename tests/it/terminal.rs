@@ -239,3 +239,21 @@ fn values_and_units_are_echoed_as_they_were_written() {
     let shown = out(&swept).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(shown.contains("5000 g in the scene"), "{shown}");
 }
+
+#[test]
+fn notes_do_not_stand_before_an_error() {
+    let folder = TempDir::new().unwrap();
+    let dropped = "[nodes]\nhead = { mass = \"5 kg\", drop = \"1 m\" }\n[elements]\npad = { between = [\"head\", \
+                   \"ground\"], spring = \"50 kN/m\" }\n[run]\nduration = \"20 ms\"\n";
+    let scene = file(&folder, "dropped.toml", dropped);
+    let told = run(&["sweep", text(&scene), "--vary", "head.mass=4,5 kg"]);
+    assert_eq!(code(&told), 0, "{}", err(&told));
+    assert!(err(&told).contains("note: node `head`"), "{}", err(&told));
+    for arguments in
+        [&["sweep", "--vary", "K=4,5"][..], &["cushion"], &["design", "--vary", "K=4..5"]]
+    {
+        let refused = run(&[&arguments[..1], &[text(&scene)], &arguments[1..]].concat());
+        assert_eq!(code(&refused), 2, "{}", err(&refused));
+        assert!(err(&refused).starts_with("error: "), "{}", err(&refused));
+    }
+}

@@ -52,7 +52,7 @@ fn what_is_next_to_nothing_is_zero_without_errors_too() {
     let text = format!("{curve}[effects]\nseparation.pad = {{}}\n[run]\nduration = \"40 ms\"\n");
     for more in [&[][..], &["--estimate", "off"]] {
         let shown = told(&text, more);
-        assert!(shown.contains("pad absorbs 0 J of 62.5 J"), "{shown}");
+        assert!(shown.contains("pad takes up 0 J of 62.5 J"), "{shown}");
     }
     let shown = told(&text, &[]);
     let row = shown.split("pad.energy-at-end ").nth(1).unwrap_or_default();

@@ -154,6 +154,22 @@ pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
     error
 }
 
+/// What is wrong with a command line and what to do, in sentences, for those who have not written it as one.
+pub(crate) fn sentences(error: &clap::Error) -> (String, Option<String>) {
+    let text = error.to_string();
+    let lines = text.lines().map(|own| own.trim().trim_start_matches("error: "));
+    let lines = lines.take_while(|own| !own.starts_with("Usage:") && !own.starts_with("For more"));
+    let (advice, told): (Vec<&str>, Vec<&str>) = lines
+        .filter(|own| !own.is_empty())
+        .partition(|own| own.starts_with("tip: ") || own.starts_with("[possible values"));
+    let advice: Vec<&str> = advice
+        .iter()
+        .map(|own| own.trim_start_matches("tip: ").trim_matches(['[', ']']))
+        .rev()
+        .collect();
+    (told.join(" "), (!advice.is_empty()).then(|| advice.join("; ")))
+}
+
 pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.rsplit_once('=').unwrap_or((text, ""));
     if name.trim().is_empty() || value.trim().is_empty() {
@@ -258,4 +274,24 @@ impl TypedValueParser for MethodNames {
 pub(crate) fn method_names() -> PossibleValuesParser {
     let methods = methods::all();
     PossibleValuesParser::new(methods.iter().map(|method| PossibleValue::new(method.name())))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::sentences;
+    use crate::verbs::Arguments;
+
+    #[test]
+    fn faults_of_a_command_line_are_sentences() {
+        let of = |words: &str| sentences(&Arguments::try_parse_from(words.split(' ')).unwrap_err());
+        let (told, help) = of("dashpot run --method eksact");
+        assert_eq!(told, "invalid value 'eksact' for '--method <NAME,…>'");
+        let help = help.unwrap();
+        assert!(help.contains("'exact'") && help.contains("tr-bdf2") && !help.contains('['));
+        let (told, help) = of("dashpot compare");
+        assert!(told.ends_with("not provided: <FIRST> <SECOND>"), "{told}");
+        assert_eq!(help, None);
+    }
 }

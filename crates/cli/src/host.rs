@@ -181,8 +181,8 @@ pub fn call(arguments: impl IntoIterator<Item = OsString>, host: Host) -> Called
             })
         }
         Err(message) => {
-            let text = args::explained(message).to_string();
-            said(Tone::Error, text.trim_start_matches("error: ").trim_end(), None);
+            let (message, help) = args::sentences(&args::explained(message));
+            said(Tone::Error, &message, help);
             Status::InputWrong
         }
     };

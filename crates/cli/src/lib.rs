@@ -14,6 +14,7 @@ mod measured;
 mod non_identifiable;
 mod numbers;
 mod operand;
+mod options;
 mod origin;
 mod out;
 mod output;
@@ -33,6 +34,7 @@ use clap::Parser;
 
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
 pub use input::load;
+pub use options::{VerbOption, options};
 pub use sketch::drawing;
 pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 

@@ -60,9 +60,7 @@ impl Bar {
         }
         ControlFlow::Continue(())
     }
-}
 
-impl Bar {
     /// Shows that `done` of so many are done.
     pub(crate) fn count(&mut self, done: usize, of: usize) -> ControlFlow<()> {
         self.show(done as f64 / of as f64, || format!("{done} of {of}"))

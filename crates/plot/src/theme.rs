@@ -52,6 +52,12 @@ pub(crate) const HAIR_WIDTH: f64 = 0.8;
 pub(crate) const MINOR_LENGTH: f64 = 4.0;
 /// Width of the border in the colour of the background around a text in a chart \[px\].
 pub(crate) const HALO_WIDTH: f64 = 6.0;
+/// Attributes of the border around texts, which is drawn below them and is no text itself.
+pub(crate) fn halo() -> String {
+    let paper = PAPER.hex();
+    format!("class=\"halo\" aria-hidden=\"true\" stroke=\"{paper}\" stroke-linejoin=\"round\"")
+}
+
 /// Radius of a marker \[px\].
 pub(crate) const MARKER_RADIUS: f64 = 4.5;
 

@@ -120,7 +120,7 @@ fn what_vanishes_is_a_plain_zero() {
     let law = "kelvin-voigt = { spring = \"K\", dashpot = \"80 N s/m\" }";
     let scene = SOFT.replace(law, "spring = \"K\"");
     let shown = out(&run(&["run", text(&file(&folder, "spring.toml", &scene))]));
-    assert!(shown.contains("pad absorbs 0 J of 90 J\n"), "{shown}");
+    assert!(shown.contains("pad takes up 0 J of 90 J\n"), "{shown}");
     let row = shown.lines().find(|line| line.starts_with("  pad.energy ")).unwrap();
     let words: Vec<&str> = row.split_whitespace().collect();
     assert!(words[1] == "0" && words[2].starts_with('±') && words[3] == "J", "{row}");

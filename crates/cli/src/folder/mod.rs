@@ -1,8 +1,9 @@
 //! Folders that results are written to.
 //!
-//! A folder has one writer at a time, which holds a lock. All files are written beside their places
-//! first; then the old [`RESULT`] is removed, the files are renamed, and the new [`RESULT`] comes last:
-//! where it is, the results are whole.
+//! A folder has one writer at a time, which holds a lock. A file is written beside its place and renamed, so that it is
+//! whole or not there. [`Folder::write`] renames all files of a run together, between the removal of the old [`RESULT`]
+//! and the new one, which comes last; [`Folder::keep`] gives each file its place as soon as it is written, for work that
+//! goes on later. Where there is a [`RESULT`], the results are whole.
 
 mod list;
 
@@ -60,7 +61,10 @@ impl Folder {
         let names: Vec<String> = names.into_iter().collect();
         // Hours of work are no earlier result that another one replaces.
         if list.has_points(path) && !names.iter().any(|own| list::is_of_points(own)) {
-            return Err(CliError::Shard { path: path.to_owned(), fault: ShardFault::Taken });
+            return Err(CliError::Shard {
+                path: path.to_owned(),
+                fault: ShardFault::Taken(Vec::new()),
+            });
         }
         refuse_foreign(path, &list, names.into_iter())?;
         Part::new(path, &part_name(&token(), 0), |_| Ok(())).map_err(unwritable(path))?;

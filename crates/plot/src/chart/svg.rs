@@ -224,25 +224,28 @@ fn draw_sample(area: &Area<'_>, entry: &Entry, origin: (f64, f64)) -> Drawn {
 
 /// What stands within the frame beside curves.
 fn drawn_texts(size: (f64, f64), texts: &Texts) -> Result<String, Fault> {
-    let halo = |class: &str| {
-        format!(
-            "class=\"{class}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
-             paint-order=\"stroke\"",
-            theme::PAPER.hex(),
-            pixels(theme::HALO_WIDTH)
-        )
-    };
     let mut svg = layer(size, "class=\"leaders\"", |area| {
         let style = line(theme::FAINT, theme::HAIR_WIDTH);
         texts.leaders.iter().try_for_each(|ends| area.draw(&path(ends, style)))
     })?;
-    svg += &layer(size, &halo("limit-labels"), |area| draw_texts(area, &texts.limits))?;
-    svg += &layer(size, &halo("labels"), |area| {
+    svg += &on_halo(size, "limit-labels", |area| draw_texts(area, &texts.limits))?;
+    svg += &on_halo(size, "labels", |area| {
         let disc = |at| Circle::new(at, pixels(theme::MARKER_RADIUS), theme::INK.rgb().filled());
         texts.discs.iter().try_for_each(|at| area.draw(&disc(canvas(*at))))?;
         draw_texts(area, &texts.markers)
     })?;
     Ok(svg)
+}
+
+/// What is drawn on an edge of paper. The edge is drawn for itself, below all else: not every program that shows SVG
+/// knows another order of strokes.
+fn on_halo(
+    size: (f64, f64),
+    class: &str,
+    draw: impl Fn(&Area<'_>) -> Drawn,
+) -> Result<String, Fault> {
+    let halo = format!("{} stroke-width=\"{}\"", theme::halo(), pixels(theme::HALO_WIDTH));
+    Ok(layer(size, &halo, &draw)? + &layer(size, &format!("class=\"{class}\""), &draw)?)
 }
 
 #[cfg(test)]
@@ -417,6 +420,13 @@ mod tests {
         for text in ["deepest 17.5 mm", "thickness 20 mm", "ceiling (off the axis)"] {
             assert!(svg.contains(text), "{text}");
         }
-        assert_eq!(svg.matches("<circle").count(), 1);
+        // The edge of paper is drawn first, of the same disc and text.
+        let (below, own) = svg.split_once("<g class=\"labels\"").unwrap();
+        let halo = below.rsplit("<g class=\"halo\"").next().unwrap();
+        for part in [halo, own] {
+            assert_eq!(part.matches("<circle").count(), 1);
+            assert_eq!(part.matches("deepest 17.5 mm").count(), 1);
+        }
+        assert!(!svg.contains("paint-order"));
     }
 }

@@ -144,9 +144,17 @@ impl CushionCurve {
     fn band(&self, colour: usize, top: f64) -> Option<Series> {
         let cut = |&(x, low, high): &(f64, f64, f64)| {
             let high = if high.is_finite() { high.min(top) } else { high };
-            (x, if low <= top { low } else { f64::NAN }, high)
+            if low <= top { (x, low, high) } else { (x, f64::NAN, f64::NAN) }
         };
-        let rows: Vec<(f64, f64, f64)> = self.band.iter().map(cut).collect();
+        // It ends in a point where all designs leave the figure.
+        let ends = self.band.windows(2).filter_map(|pair| {
+            let lows = [(pair[0].0, pair[0].1), (pair[1].0, pair[1].1)];
+            let [a, b] = cut_at(lows, top)?;
+            let end = if lows[0].1 > top { a } else { b };
+            (lows[0].1.max(lows[1].1) > top).then_some((end.0, top, top))
+        });
+        let mut rows: Vec<(f64, f64, f64)> = self.band.iter().map(cut).chain(ends).collect();
+        rows.sort_by(|one, other| one.0.total_cmp(&other.0));
         let has_any = rows.iter().any(|own| own.1.is_finite() && own.2.is_finite());
         has_any.then(|| Series::band("", colour, rows))
     }
@@ -163,12 +171,13 @@ impl CushionCurve {
     /// The parts of the curve that are known equally well; the last one that is drawn has the name.
     fn parts(&self, colour: usize, top: f64) -> Vec<Series> {
         let mut parts = Vec::new();
+        let all = self.with_best();
         for mark in [CushionMark::Known, CushionMark::OnStop, CushionMark::Beyond] {
             let mut points = Vec::new();
-            for pair in self.points.windows(2) {
+            for pair in all.windows(2) {
                 // A part reaches to the last point that is known better.
                 let worst = if rank(pair[0].2) > rank(pair[1].2) { pair[0].2 } else { pair[1].2 };
-                let ends = cut([(pair[0].0, pair[0].1), (pair[1].0, pair[1].1)], top);
+                let ends = cut_at([(pair[0].0, pair[0].1), (pair[1].0, pair[1].1)], top);
                 match ends.filter(|_| worst == mark) {
                     Some(ends) if points.last() == Some(&ends[0]) => points.push(ends[1]),
                     Some(ends) if points.is_empty() => points.extend(ends),
@@ -186,6 +195,20 @@ impl CushionCurve {
         }
         parts
     }
+
+    /// The points and the best one among them, through which the curve goes as well.
+    fn with_best(&self) -> Vec<(f64, f64, CushionMark)> {
+        let mut all = self.points.clone();
+        let Some((x, y)) = self.best else { return all };
+        let at = all.partition_point(|own| own.0 < x);
+        if let (Some(before), Some(after)) = (at.checked_sub(1).map(|own| all[own]), all.get(at)) {
+            let mark = if rank(before.2) < rank(after.2) { before.2 } else { after.2 };
+            if after.0 > x {
+                all.insert(at, (x, y, mark));
+            }
+        }
+        all
+    }
 }
 
 fn rank(mark: CushionMark) -> u8 {
@@ -197,7 +220,7 @@ fn rank(mark: CushionMark) -> u8 {
 }
 
 /// What of a piece of a curve lies below the top; the horizontal axis is logarithmic.
-fn cut([a, b]: [(f64, f64); 2], top: f64) -> Option<[(f64, f64); 2]> {
+fn cut_at([a, b]: [(f64, f64); 2], top: f64) -> Option<[(f64, f64); 2]> {
     if !(a.1.is_finite() && b.1.is_finite()) || (a.1 > top && b.1 > top) {
         return None;
     }
@@ -266,5 +289,19 @@ mod tests {
         {
             assert!(svg.contains(text), "{text}");
         }
+    }
+
+    #[test]
+    fn a_curve_goes_through_its_best_point_and_a_band_ends_at_the_top() {
+        let mut own = series();
+        own.curves[0].best = Some((3.0, 38.0));
+        let solid = &own.chart().series[1].points;
+        assert_eq!(solid[1..], [(2.0, 40.0), (3.0, 38.0)]);
+        // From 50 g at 4 kPa to 200 g at 8 kPa the best designs leave the figure halfway on a logarithmic axis.
+        own.curves[0].best = Some((2.0, 40.0));
+        own.curves[0].band.extend([(8.0, 200.0, 300.0), (16.0, 250.0, 400.0)]);
+        let band = own.chart().series.swap_remove(0).points;
+        let last = band.iter().filter(|own| own.1.is_finite()).map(|own| own.0).fold(0.0, f64::max);
+        assert!((last - 4.0 * 2.0_f64.sqrt()).abs() < 1e-12, "{band:?}");
     }
 }

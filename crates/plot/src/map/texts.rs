@@ -99,21 +99,18 @@ impl<'f> Texts<'f> {
         for (class, weight, is_bold) in
             [("labels", "", false), ("limit-labels", " font-weight=\"bold\"", true)]
         {
-            let mut own = self.placed.iter().filter(|own| own.is_bold == is_bold).peekable();
-            if own.peek().is_none() {
+            let own = self.placed.iter().filter(|own| own.is_bold == is_bold);
+            let texts = own
+                .map(|own| text((own.at.0, own.at.1 + 4.5), "middle", theme::TICK_SIZE, &own.text));
+            let texts: String = texts.collect();
+            if texts.is_empty() {
                 continue;
             }
-            let _ = writeln!(
-                svg,
-                "<g class=\"{class}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"3\" \
-                 stroke-linejoin=\"round\" paint-order=\"stroke\"{weight}>",
-                theme::INK.hex(),
-                theme::PAPER.hex()
-            );
-            for Placed { at, text: own, .. } in own {
-                svg.push_str(&text((at.0, at.1 + 4.5), "middle", theme::TICK_SIZE, own));
+            let halo = format!("{} stroke-width=\"3\"", theme::halo());
+            let ink = format!("class=\"{class}\" fill=\"{}\"", theme::INK.hex());
+            for own in [halo, ink] {
+                let _ = writeln!(svg, "<g {own}{weight}>\n{texts}</g>");
             }
-            svg.push_str("</g>\n");
         }
     }
 }

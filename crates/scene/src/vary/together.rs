@@ -10,7 +10,7 @@ use crate::{
     text::{
         document::{Content, Entry, Item, parse},
         source::{Place, Source},
-        table::{entries_of, unknown_key, wrong_type},
+        table::unknown_key,
     },
     units::{Quantity, parse_quantity},
 };
@@ -20,6 +20,7 @@ pub(crate) const SECTION: &str = "scatter";
 pub(crate) const KEY: &str = "together";
 const HELP: &str = "write `together = [{ \"foam.modulus\" = \"4 %\", \"foam.plateau\" = \"-2 %\" }]`: what one standard \
                     deviation of each cause adds to each number";
+const ALONE: &str = "a number that scatters alone has it behind `±`: \"20 ± 2 MN/m\"";
 /// Shares beyond this are no scatter any more.
 const MOST: f64 = 1.0;
 
@@ -56,7 +57,9 @@ pub(crate) fn check(source: &Arc<Source>, faults: &Faults) {
 fn read(source: &Arc<Source>, tunables: &Tunables, faults: &Faults) -> Vec<Cause> {
     let Some(root) = parse(source, faults) else { return Vec::new() };
     let section = root.table().unwrap_or(&[]).iter().find(|own| own.key == SECTION);
-    let Some(entries) = section.and_then(|own| entries_of(&own.item, "`[scatter]`", faults)) else {
+    let Some(section) = section else { return Vec::new() };
+    let Some(entries) = section.item.table() else {
+        no_table(&section.item, "`[scatter]`", "a table", faults);
         return Vec::new();
     };
     let mut all = Vec::new();
@@ -66,17 +69,29 @@ fn read(source: &Arc<Source>, tunables: &Tunables, faults: &Faults) -> Vec<Cause
                 all.extend(causes.iter().filter_map(|own| cause(own, tunables, faults)));
             }
             _ if entry.key == KEY => {
-                wrong_type(&entry.item, "`together`", "a list of tables", faults);
+                no_table(&entry.item, "`together`", "a list of tables", faults);
             }
-            _ => faults.error(entry.key_place, unknown_key(entry, "`[scatter]`", vec![KEY])),
+            _ => {
+                let unknown = unknown_key(entry, "`[scatter]`", vec![KEY]);
+                faults.error(entry.key_place, unknown.with_help(format!("{HELP}; {ALONE}")));
+            }
         }
     }
     all
 }
 
+fn no_table(item: &Item, what: &str, expected: &str, faults: &Faults) {
+    let (what, expected) = (what.to_owned(), expected.to_owned());
+    let fault = Fault::WrongType { what, expected, found: item.type_name() };
+    faults.error(item.place, fault.with_help(HELP));
+}
+
 fn cause(item: &Item, tunables: &Tunables, faults: &Faults) -> Option<Cause> {
     let mut shares = Vec::new();
-    let entries = entries_of(item, "what scatters together", faults)?;
+    let Some(entries) = item.table() else {
+        no_table(item, "what scatters together", "a table", faults);
+        return None;
+    };
     collect(entries, "", &mut |name, item, place| match number(name, item, tunables) {
         Ok((at, _)) if shares.iter().any(|own: &(usize, f64)| own.0 == at) => {
             faults.error(place, Fault::odd(format!("`{name}` stands here twice"), HELP));
@@ -122,6 +137,32 @@ fn number(name: &str, item: &Item, tunables: &Tunables) -> Result<(usize, f64), 
         Some(share) => Ok((at, share)),
         None => {
             Err((format!("`{name}` wants a part of itself, from −100 to 100 %"), HELP.to_owned()))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_list_of_causes_is_told_with_an_example() {
+        let scene = |section: &str| format!("[values]\nK = \"5 N/m\"\n{section}\n");
+        for section in [
+            "scatter = 5",
+            "[scatter]\nK = \"10 %\"",
+            "[scatter]\ntogether = { K = \"10 %\" }",
+            "[scatter]\ntogether = [\"K\"]",
+        ] {
+            let section =
+                if section.starts_with('[') { scene(section) } else { section.to_owned() };
+            let faults = Faults::default();
+            check(&Arc::new(Source::new("scene", section.clone())), &faults);
+            let all = faults.finish().list;
+            assert!(!all.is_empty(), "{section}");
+            for own in all {
+                assert!(own.help().is_some_and(|own| own.contains("together = [{")), "{section}");
+            }
         }
     }
 }

@@ -35,7 +35,7 @@ pub struct Verdict<'r> {
     /// The pad with the least left of its thickness, or else the largest deformation.
     pub depth: Option<Depth<'r>>,
     /// The largest energy that an element takes up.
-    pub energy: Option<Absorbed<'r>>,
+    pub energy: Option<TakenUp<'r>>,
     /// How the impact ends.
     pub ending: Option<Ending<'r>>,
     /// What is known of the errors.
@@ -98,7 +98,7 @@ pub struct Depth<'r> {
 
 /// What an element takes up, and of what.
 #[derive(Debug, Clone)]
-pub struct Absorbed<'r> {
+pub struct TakenUp<'r> {
     /// The measure.
     pub measure: &'r MeasureReport,
     /// Its value \[J\].
@@ -321,10 +321,10 @@ impl<'r> Found<'r> {
         all.filter(|(_, node)| element.is_none() || ends.contains(&node.body)).collect()
     }
 
-    fn energy(self) -> Option<Absorbed<'r>> {
+    fn energy(self) -> Option<TakenUp<'r>> {
         let (measure, value) = self.largest(Energy::KIND)?;
         let supply = self.supply(measure);
-        Some(Absorbed { measure, value, supply })
+        Some(TakenUp { measure, value, supply })
     }
 
     fn supply(self, measure: &MeasureReport) -> Option<Supply<'r>> {

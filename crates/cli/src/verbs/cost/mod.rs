@@ -75,8 +75,6 @@ struct Costs {
 /// Finds out what accuracy costs in a scene.
 pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scene = arguments.scene.read(terminal)?;
-    print_notes(&scene.notes);
-    note_means(&scene);
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let assembly = Arc::new(scene.assembly.clone());
     let mut settings = scene.settings("auto")?;
@@ -87,6 +85,8 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     drop(bar);
     let accuracies = accuracies(scene.accuracy.default);
     let costs = Costs { scene, report, accuracies };
+    print_notes(&costs.scene.notes);
+    note_means(&costs.scene);
     emit(&costs, arguments.json, folder, terminal)?;
     Ok(if costs.report.points.is_empty() { Status::RunFailed } else { Status::Done })
 }

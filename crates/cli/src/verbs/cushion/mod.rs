@@ -127,7 +127,6 @@ pub(crate) fn cushion(
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     let scene = checked.value;
-    print_notes(&scene.notes);
     let wanted = Wanted::of(arguments, &scene, &input)?;
     if arguments.enforce && wanted.asked.limit.is_none() {
         return Err(CliError::NoLimits);
@@ -154,6 +153,7 @@ pub(crate) fn cushion(
     let has_failed = points.all(|own| is_unsolved(&own.known));
     let is_kept = found.is_kept();
     let drawn = Drawn { scene, wanted, cushion: found, batches, is_csv: arguments.csv };
+    print_notes(&drawn.scene.notes);
     emit(&drawn, arguments.json, folder, terminal)?;
     Ok(match (has_failed, arguments.enforce && !is_kept) {
         (true, _) => Status::RunFailed,

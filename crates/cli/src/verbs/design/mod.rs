@@ -39,7 +39,6 @@ use crate::{
     args::{LimitArguments, SceneArguments, method_names, probability, samples},
     error::{CliError, Status},
     input::Input,
-    operand::print_notes,
     out::OutArguments,
     output::{emit, list},
     progress::Bar,
@@ -169,7 +168,6 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     let mut scene = checked.value;
-    print_notes(&scene.notes);
     let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
     let (tests, files) = scenes::tests(&arguments.test, &input)?;
     let asked = Asked::of(arguments, tunables, tests)?;
@@ -177,7 +175,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     scene.add_limits(further.clone());
     let mut scenes = vec![TestScene::own(input, scene.clone(), &asked)];
     for path in &files {
-        let own = TestScene::other(path, &asked, (set, &scenes), terminal)?;
+        let own = TestScene::other(path, &asked, set, terminal)?;
         arguments.limits.beside(&own.scene.limits)?;
         scenes.push(own);
     }
@@ -224,6 +222,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     };
     let is_kept = is_kept(best);
     let settings = arguments.in_words();
+    scenes::print_all_notes(&scenes);
     let answer =
         Answer { scene, asked: asked.clone(), found, front, floors, texts, slices, settings };
     emit(&answer, arguments.json, folder, terminal)?;

@@ -118,6 +118,17 @@ pub(super) fn tests(
     Ok((tests, files))
 }
 
+/// Says what there is to say about the models of all scenes, each thing once.
+pub(super) fn print_all_notes(scenes: &[TestScene]) {
+    let mut told: Vec<ModelNote> = Vec::new();
+    for own in scenes.iter().flat_map(|own| &own.scene.notes) {
+        if !told.contains(own) {
+            told.push(own.clone());
+        }
+    }
+    print_notes(&told);
+}
+
 impl TestScene {
     /// The scene of the command.
     pub(super) fn own(input: Input, scene: Scene, asked: &Asked) -> Self {
@@ -131,15 +142,13 @@ impl TestScene {
     pub(super) fn other(
         path: &Path,
         asked: &Asked,
-        (set, known): (&[(String, String)], &[Self]),
+        set: &[(String, String)],
         terminal: Terminal,
     ) -> Result<Self, CliError> {
         let input = Input::read(path)?;
         let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
         terminal.diagnose(&checked.warnings);
         let scene = checked.value;
-        let is_told = |own: &ModelNote| known.iter().any(|other| other.scene.notes.contains(own));
-        print_notes(&list(scene.notes.iter().filter(|own| !is_told(own)).cloned()));
         let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
         let missing = |name: &str, why: String| {
             let file = &input.file;

@@ -99,7 +99,6 @@ impl<'p> Plan<'p> {
         let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
         terminal.diagnose(&checked.warnings);
         let scene = checked.value;
-        print_notes(&scene.notes);
         if arguments.scatter && scene.scatter.iter().any(|own| own.is_together) {
             let reason = "the scene has a section `[scatter]` already: leave that out".to_owned();
             return Err(CliError::WrongSetting { name: "--scatter".to_owned(), reason });
@@ -127,6 +126,7 @@ impl<'p> Plan<'p> {
         }
         let known = own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0)));
         let known = list(known);
+        print_notes(&scene.notes);
         Ok(Self { arguments, input, terminal, scene, tunables, numbers, curves, known, tests })
     }
 

@@ -94,7 +94,8 @@ struct GroupsStudy {
 
 /// Tells of groups, similar scenes and laboratory tests.
 pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let scene = read(arguments.first.as_deref(), arguments, terminal)?;
+    let set = &arguments.values.set;
+    let scene = read_scene(arguments.first.as_deref(), set, terminal)?;
     let mut network = scene.network.clone();
     let mut name = title(&scene).to_owned();
     if !arguments.from.is_empty() {
@@ -108,9 +109,10 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         pair: None,
         laboratory: None,
     };
-    if let Some(second) = &arguments.second {
-        let other = read(Some(second), arguments, terminal)?;
-        study.pair = Some(Pair::of(&scene, &other, arguments)?);
+    let other = arguments.second.as_deref().map(|second| read_scene(Some(second), set, terminal));
+    let other = other.transpose()?;
+    if let Some(other) = &other {
+        study.pair = Some(Pair::of(&scene, other, arguments)?);
     }
     if !arguments.lab.is_empty() {
         study.laboratory = Some(Test::of(&scene, arguments)?);
@@ -120,20 +122,13 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
         write(path, &title, &network, &settings, (&scene, arguments))?;
         note(&format!("wrote {}", path.display()));
     }
+    for own in [&scene].into_iter().chain(&other) {
+        print_notes(&own.notes);
+        note_means(own);
+    }
     emit(&study, arguments.json, None, terminal)?;
     let is_other = study.pair.is_some_and(|pair| !pair.found.is_similar());
     Ok(if is_other { Status::NotSame } else { Status::Done })
-}
-
-fn read(
-    path: Option<&Path>,
-    arguments: &GroupsArguments,
-    terminal: Terminal,
-) -> Result<Scene, CliError> {
-    let scene = read_scene(path, &arguments.values.set, terminal)?;
-    print_notes(&scene.notes);
-    note_means(&scene);
-    Ok(scene)
 }
 
 fn with_groups(network: &Network, wanted: &[(String, String)]) -> Result<Network, CliError> {

@@ -4,7 +4,7 @@ use dashpot_analysis::{
     Contact, ContactReport, MeasureReport, Note, Partial, RunReport,
     measures::{Hic, STANDARD_GRAVITY},
     partial::{Cost, Verification, Why},
-    verdict::{Absorbed, Depth, Ending, Opened, Peak, Reached, Verdict, WholeForce},
+    verdict::{Depth, Ending, Opened, Peak, Reached, TakenUp, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
 use dashpot_units::percent;
@@ -162,17 +162,17 @@ impl Words<'_> {
         }
     }
 
-    fn energy(&self, absorbed: &Absorbed<'_>) -> String {
-        let (value, name) = (absorbed.value, &absorbed.measure.target);
-        let amount = self.shown(absorbed.measure, value);
-        let Some(supply) = &absorbed.supply else { return format!("{name} absorbs {amount}") };
+    fn energy(&self, taken_up: &TakenUp<'_>) -> String {
+        let (value, name) = (taken_up.value, &taken_up.measure.target);
+        let amount = self.shown(taken_up.measure, value);
+        let Some(supply) = &taken_up.supply else { return format!("{name} takes up {amount}") };
         let (kinetic, work) = (supply.kinetic, supply.work);
         if kinetic <= LITTLE * work {
             // What falls begins without energy, or with what little its layers hold at rest.
             let whole = rounded(work, "J", TIME_DIGITS);
             let part =
                 if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
-            return format!("{name} absorbs {amount} of {whole} put in{part}");
+            return format!("{name} takes up {amount} of {whole} put in{part}");
         }
         let whole = rounded(kinetic, "J", DIGITS);
         let whole = if supply.impactors.is_empty() {
@@ -188,12 +188,12 @@ impl Words<'_> {
         let part = value / (kinetic + work.max(0.0));
         // What rests on springs at the start may be given to the pad as well.
         let is_told = part <= 1.0 + LITTLE && part.abs() > ZERO;
-        let part = if is_told && !self.zeros.has(absorbed.measure) {
+        let part = if is_told && !self.zeros.has(taken_up.measure) {
             format!(" ({})", share(part))
         } else {
             String::new()
         };
-        format!("{name} absorbs {amount} of {whole}{added}{part}")
+        format!("{name} takes up {amount} of {whole}{added}{part}")
     }
 
     fn ending(&self, ending: &Ending<'_>) -> String {

@@ -23,7 +23,7 @@ use crate::{
 /// Values at all points.
 const TABLE: &str = "sweep.csv";
 /// Heading of the numbers of warnings.
-const WARNINGS: &str = "warnings";
+pub(super) const WARNINGS: &str = "warnings";
 
 fn line_file(column: &Column) -> String {
     stem(column) + ".svg"

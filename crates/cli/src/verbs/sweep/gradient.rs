@@ -20,6 +20,7 @@ use crate::{
     folder::{Folder, Staged},
     input::title,
     numbers::{Unit, digits, percent_signed, quantity},
+    operand::print_notes,
     origin::{self, Source},
     output::{Study, Text, VERSION, csv, emit, list},
     progress::Bar,
@@ -71,12 +72,12 @@ pub(super) fn gradient(
         let text = varied.text_at(&grid.places(point));
         reports.push(at_point(&text, (&scene, &places), keys, threads, pose)?);
         let done = point + 1;
-        let shown = bar.show(done as f64 / count as f64, || format!("{done} of {count}"));
-        if shown.is_break() {
+        if bar.count(done, count).is_break() {
             return Err(SweepError::BrokenOff.into());
         }
     }
     let found = Gradients { scene, varied, grid, reports, table: arguments.output.table };
+    print_notes(&found.scene.notes);
     emit(&found, arguments.output.json, folder, terminal)?;
     Ok(Status::Done)
 }

@@ -5,6 +5,7 @@ mod best;
 mod figures;
 mod files;
 mod gradient;
+mod identity;
 mod kept;
 mod page;
 #[cfg(feature = "parquet")]
@@ -34,6 +35,7 @@ pub(crate) use self::{
 };
 use self::{
     arguments::{EstimatedPoints, OutputArguments},
+    identity::Identity,
     shards::{OfShard, Place, Stored},
     varied::{Form, Varied},
     words::{notes, summary},
@@ -104,16 +106,18 @@ fn solved_or_merged(
     let usual = if varied.is_apart() { EstimatedPoints::All } else { EstimatedPoints::Some };
     let estimates: Estimates = arguments.estimate.unwrap_or(usual).into();
     let of = (&varied, &grid, arguments.points.as_deref());
+    let identity = Identity::of(arguments, &scene, &columns, estimates);
     #[cfg(feature = "parquet")]
     if arguments.parquet {
         terminal.diagnose(&of_ends(of, (&input, &set), known)?);
         let (scene, varied, grid, columns) = (&scene, &varied, &grid, &columns[..]);
         let (pose, sweep): (&Pose<'_>, _) = (&at, hash);
-        let wanted = parts::Wanted { scene, varied, grid, pose, columns, estimates, sweep };
+        let wanted =
+            parts::Wanted { scene, varied, grid, pose, columns, estimates, sweep, identity };
         return parts::written(arguments, &wanted, terminal);
     }
     if let Some(place) = arguments.shard
-        && Stored::found(&arguments.output, place, &hash)?
+        && Stored::found(&arguments.output, place, (&hash, &identity))?
     {
         return Ok(Status::Done);
     }
@@ -133,7 +137,9 @@ fn solved_or_merged(
     let OutputArguments { json, table, .. } = arguments.output;
     match found {
         Found::Shard(place, shard) => {
-            let study = OfShard::of((arguments, place), (&scene, hash), grid.len(), shard);
+            let of = (&scene, hash, identity);
+            let study = OfShard::of((arguments, place), of, grid.len(), shard);
+            print_notes(&scene.notes);
             emit(&study, json, folder, terminal)?;
             Ok(study.status())
         }
@@ -141,6 +147,7 @@ fn solved_or_merged(
             let asked = arguments.in_words(estimates);
             let swept = Swept { scene, varied, grid, estimates, asked, report: *report, table };
             let has_folder = folder.is_some();
+            print_notes(&swept.scene.notes);
             emit(&swept, json, folder, terminal)?;
             figures::undrawn(&swept.varied).filter(|_| has_folder).into_iter().for_each(note);
             Ok(status(&swept.report, arguments.enforce))
@@ -167,7 +174,6 @@ impl Asked {
         let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
         terminal.diagnose(&checked.warnings);
         let scene = checked.value;
-        print_notes(&scene.notes);
         let varied = Varied::of(arguments, &scene.text, &input.file)?;
         if let Some((name, _)) = set.iter().find(|own| varied.has(&own.0)) {
             return Err(CliError::SetAndVaried { name: name.clone() });
@@ -195,8 +201,7 @@ fn found(
 ) -> Result<Found, CliError> {
     let options = SweepOptions { threads: arguments.threads(), estimates };
     let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
-    let mut show =
-        |done: usize, of: usize| bar.show(done as f64 / of as f64, || format!("{done} of {of}"));
+    let mut show = |done, of| bar.count(done, of);
     if let Some(place) = arguments.shard {
         let points = points_of_shard(grid.len(), place.number, place.of);
         let shard = sweep_shard(grid, pose, columns, options, points, &mut show)?;

@@ -1,7 +1,7 @@
 //! `--shard`, and `dashpot merge`: a sweep in parts that are solved at other times or by other machines.
 
 use std::{
-    fs,
+    fmt, fs,
     path::{Path, PathBuf},
 };
 
@@ -11,7 +11,11 @@ use dashpot_scene::Scene;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{OutputArguments, SweepArguments, solved_or_merged};
+use super::{
+    OutputArguments, SweepArguments,
+    identity::{Difference, Identity, differing},
+    solved_or_merged,
+};
 use crate::{
     error::{CliError, Status},
     folder::{RESULT, Staged},
@@ -47,7 +51,7 @@ pub(crate) struct MergeArguments {
 }
 
 /// What is wrong with a folder of a shard.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(crate) enum ShardFault {
     /// There is no result of a shard.
     #[error("there is no shard of a sweep in it, or not yet")]
@@ -64,8 +68,8 @@ pub(crate) enum ShardFault {
     )]
     Changed,
     /// There is a shard of another sweep where this one is to be written.
-    #[error("there are points of another sweep or shard in it")]
-    Taken,
+    #[error("there are points of another sweep or shard in it{}", differing(.0))]
+    Taken(Vec<Difference>),
     /// It is there twice.
     #[error("its shard is there twice")]
     Twice,
@@ -73,13 +77,13 @@ pub(crate) enum ShardFault {
 
 impl ShardFault {
     /// What to do.
-    pub(crate) fn help(self) -> &'static str {
+    pub(crate) fn help(&self) -> &'static str {
         match self {
             Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
             Self::Broken => "remove the folder, and solve the shard again",
             Self::OfAnother | Self::Twice => "leave the folder out",
             Self::Changed => "solve all shards again, or bring back what was changed",
-            Self::Taken => "choose another folder for `--out`, or remove this one",
+            Self::Taken(_) => "choose another folder for `--out`, or remove this one",
         }
     }
 }
@@ -106,6 +110,12 @@ pub(super) struct Place {
     /// Its number, from 1.
     pub(super) number: usize,
     pub(super) of: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}/{}", self.number, self.of)
+    }
 }
 
 /// More shards are not numbered.
@@ -141,6 +151,7 @@ pub(super) struct OfShard<'s> {
     scene: &'s Scene,
     place: Place,
     sweep: String,
+    identity: Identity,
     points: usize,
     shard: Shard,
     bytes: Vec<u8>,
@@ -150,13 +161,13 @@ impl<'s> OfShard<'s> {
     /// The shard at a place of a `sweep` of so many points.
     pub(super) fn of(
         (arguments, place): (&'s SweepArguments, Place),
-        (scene, sweep): (&'s Scene, String),
+        (scene, sweep, identity): (&'s Scene, String, Identity),
         points: usize,
         shard: Shard,
     ) -> Self {
         let both = shard.values.iter().chain(&shard.errors);
         let bytes = both.flat_map(|own| own.to_le_bytes()).collect();
-        Self { arguments, scene, place, sweep, points, shard, bytes }
+        Self { arguments, scene, place, sweep, identity, points, shard, bytes }
     }
 
     /// Failed where no point of it could be solved.
@@ -206,6 +217,7 @@ impl Study for OfShard<'_> {
             title: &self.scene.title,
             file: &self.scene.file,
             sweep: &self.sweep,
+            identity: &self.identity,
             arguments: self.arguments,
             place: self.place,
             shard: &self.shard,
@@ -224,6 +236,7 @@ impl Study for OfShard<'_> {
 pub(super) struct Stored {
     /// The hash of what it is a part of.
     pub(super) sweep: String,
+    identity: Identity,
     arguments: SweepArguments,
     place: Place,
     pub(super) shard: Shard,
@@ -254,7 +267,7 @@ impl Stored {
     pub(super) fn found(
         output: &OutputArguments,
         place: Place,
-        sweep: &str,
+        (sweep, identity): (&str, &Identity),
     ) -> Result<bool, CliError> {
         let Some(folder) = &output.out else { return Ok(false) };
         match Self::read(folder) {
@@ -266,7 +279,7 @@ impl Stored {
                 ));
                 Ok(true)
             }
-            Ok(_) => Err(CliError::Shard { path: folder.clone(), fault: ShardFault::Taken }),
+            Ok(own) => Err(own.fault(ShardFault::Taken(identity.differences(&own.identity)))),
             Err(_) => Ok(false),
         }
     }

@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{
     Limit, Warning,
-    sweep::{Column, Estimates, Gap, PartialOfSweep, SweepReport, SweepWarning},
+    sweep::{Column, Estimates, Gap, Grid, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
@@ -55,20 +55,29 @@ impl Swept {
 
     /// The values of all parameters at a point, with the line of a table in which they stand.
     pub(super) fn at(&self, point: usize) -> String {
-        let line = self.varied.lines.get(point).map(|line| format!("line {line}"));
-        let all = self.values_at(point).into_iter().zip(&self.varied.variations);
-        let all = all.map(|(value, own)| format!("{} = {value}", own.name));
-        line.into_iter().chain(all).collect::<Vec<_>>().join(", ")
+        self.varied.at(&self.grid, point)
     }
 
     /// The same without the names.
     pub(super) fn values_at(&self, point: usize) -> Vec<String> {
-        let places = self.varied.places(&self.grid.places(point)).into_iter();
-        places.zip(&self.varied.variations).map(|(place, own)| shown(own, place)).collect()
+        self.varied.values_at(&self.grid, point)
     }
 }
 
 impl Varied {
+    /// The values of all parameters at a point of the grid, with the line of a table in which they stand.
+    pub(super) fn at(&self, grid: &Grid, point: usize) -> String {
+        let line = self.lines.get(point).map(|line| format!("line {line}"));
+        let all = self.values_at(grid, point).into_iter().zip(&self.variations);
+        let all = all.map(|(value, own)| format!("{} = {value}", own.name));
+        line.into_iter().chain(all).collect::<Vec<_>>().join(", ")
+    }
+
+    fn values_at(&self, grid: &Grid, point: usize) -> Vec<String> {
+        let places = self.places(&grid.places(point)).into_iter();
+        places.zip(&self.variations).map(|(place, own)| shown(own, place)).collect()
+    }
+
     /// SI unit of a parameter.
     pub(super) fn unit(&self, parameter: usize) -> String {
         let own = || self.tunables.all()[self.matched[parameter]?].dimension;

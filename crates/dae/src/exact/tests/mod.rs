@@ -1,11 +1,10 @@
 //! Tests of the exact solution against closed forms, the thesis and many digits.
 
-#![allow(
+#![expect(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
     clippy::cast_sign_loss,
     clippy::float_cmp,
-    clippy::large_digit_groups,
     clippy::excessive_precision,
     reason = "small counts, exact values and reference values with all their digits"
 )]

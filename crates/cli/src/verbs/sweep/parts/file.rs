@@ -24,13 +24,21 @@ use parquet::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    super::{files::header, varied::Varied, words::name},
+    super::{
+        files::{WARNINGS, header},
+        identity::Identity,
+        varied::Varied,
+        words::name,
+    },
+    Wanted,
     summary::Summary,
 };
 use crate::output::{VERSION, list};
 
 /// Heading of the reasons why a point or value is missing.
 const MISSING: &str = "missing";
+/// The headings of texts that are said of points.
+pub(super) const SAID: [&str; 2] = [WARNINGS, MISSING];
 /// What the footer calls what is known of the points.
 const KEY: &str = "dashpot";
 
@@ -41,15 +49,17 @@ pub(super) struct Footer {
     dashpot: String,
     /// The hash of the sweep that the points are of.
     pub(super) sweep: String,
+    pub(super) identity: Identity,
     /// The points, by their numbers in the whole grid, from 0.
     pub(super) points: Range<usize>,
     pub(super) summary: Summary,
 }
 
 impl Footer {
-    pub(super) fn of(sweep: &str, points: Range<usize>, report: &SweepReport) -> Self {
-        let (dashpot, sweep) = (VERSION.to_owned(), sweep.to_owned());
-        Self { dashpot, sweep, points, summary: Summary::of(report) }
+    pub(super) fn of(wanted: &Wanted<'_>, points: Range<usize>, report: &SweepReport) -> Self {
+        let (sweep, identity) = (wanted.sweep.clone(), wanted.identity.clone());
+        let summary = Summary::of(report, points.start);
+        Self { dashpot: VERSION.to_owned(), sweep, identity, points, summary }
     }
 
     /// That of a file; `None` where it is not one of these.

@@ -4,7 +4,7 @@
 mod file;
 mod summary;
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 use dashpot_analysis::{
     Limit,
@@ -22,15 +22,18 @@ use self::{
 };
 use super::{
     arguments::SweepArguments,
+    identity::Identity,
     shards::{Place, ShardFault},
     varied::Varied,
     words::{limit, name, solved, unit},
 };
 use crate::{
+    cancel::{is_interrupted, notice_interrupts},
     error::{CliError, Status, unwritable},
     folder::{Folder, RESULT},
     input::title,
     numbers::{bound, counted},
+    operand::print_notes,
     origin,
     output::{Pairs, Study, Text, VERSION, emit, list, object},
     progress::Bar,
@@ -58,6 +61,7 @@ pub(super) struct Wanted<'w> {
     pub(super) estimates: Estimates,
     /// The hash of all on which its values depend.
     pub(super) sweep: String,
+    pub(super) identity: Identity,
 }
 
 /// Solves what is not there yet of a sweep, or of its shard.
@@ -71,6 +75,10 @@ pub(super) fn written(
         Some(place) => points_of_shard(grid.len(), place.number, place.of),
         None => 0..grid.len(),
     };
+    let words = varied.variations.iter().filter(|own| own.is_of_words());
+    if let Some(own) = words.map(|own| &own.name).find(|own| file::SAID.contains(&own.as_str())) {
+        return Err(CliError::ColumnTaken { name: own.clone() });
+    }
     let [fewest, most] = PART;
     let length = (grid.len() / FILES).next_power_of_two().clamp(fewest, most);
     let starts = all.clone().step_by(length);
@@ -79,7 +87,7 @@ pub(super) fn written(
     let Some(mut folder) = Folder::wanted(arguments.output.out.as_deref(), names)? else {
         return Ok(Status::Done);
     };
-    let there = there(&folder, &wanted.sweep, &parts)?;
+    let there = there(&folder, wanted, &parts)?;
     let is_there = |part: &Range<usize>| there.iter().any(|own| own.points == *part);
     let (known, missing): (Vec<_>, Vec<_>) = parts.into_iter().partition(is_there);
     if !known.is_empty() {
@@ -93,16 +101,28 @@ pub(super) fn written(
     if !missing.is_empty() {
         let options = SweepOptions { threads: arguments.threads(), estimates: wanted.estimates };
         let mut bar = Bar::new("sweep", 0.0, terminal.error.attended);
-        let mut show = |done: usize, of: usize| bar.count(done, of);
+        notice_interrupts();
+        let mut show = |done: usize, of: usize| {
+            if is_interrupted() { ControlFlow::Break(()) } else { bar.count(done, of) }
+        };
         let take = |part: &Range<usize>, report| {
-            let footer = Footer::of(&wanted.sweep, part.clone(), &report);
+            let footer = Footer::of(wanted, part.clone(), &report);
             let name = file_name(part);
             let bytes = file::bytes((varied, grid), &footer, &report);
             folder.keep(&name, &bytes.map_err(unwritable(&folder.path().join(&name)))?)?;
             sizes.push((footer.points, footer.summary));
             Ok::<_, CliError>(())
         };
-        sweep_in_parts(grid, pose, columns, options, &missing, take, &mut show)?;
+        let solved = sweep_in_parts(grid, pose, columns, options, &missing, take, &mut show);
+        if is_interrupted() && matches!(solved, Err(CliError::Sweep(SweepError::BrokenOff))) {
+            let kept = sizes.iter().map(|own| own.0.len()).sum();
+            return Err(CliError::Interrupted {
+                kept,
+                of: all.len(),
+                path: folder.path().to_owned(),
+            });
+        }
+        solved?;
     }
     sizes.sort_by_key(|own| own.0.start);
     let files = list(sizes.iter().map(|own| file_name(&own.0)));
@@ -122,6 +142,7 @@ pub(super) fn written(
     };
     let object = serde_json::to_string_pretty(&study.object())? + "\n";
     folder.keep(RESULT, object.as_bytes())?;
+    print_notes(&wanted.scene.notes);
     emit(&study, arguments.output.json, None, terminal)?;
     Ok(study.status(arguments.enforce))
 }
@@ -132,15 +153,23 @@ fn file_name(points: &Range<usize>) -> String {
 }
 
 /// What is there already, whole; a folder with anything else is refused.
-fn there(folder: &Folder, sweep: &str, parts: &[Range<usize>]) -> Result<Vec<Footer>, CliError> {
-    let taken = || CliError::Shard { path: folder.path().to_owned(), fault: ShardFault::Taken };
+fn there(
+    folder: &Folder,
+    wanted: &Wanted<'_>,
+    parts: &[Range<usize>],
+) -> Result<Vec<Footer>, CliError> {
     let names = folder.whole()?.into_iter().filter(|own| own != RESULT);
     let footers = names.map(|own| Footer::read(&folder.path().join(own)));
-    footers
-        .map(|own| {
-            own.filter(|own| own.sweep == sweep && parts.contains(&own.points)).ok_or_else(taken)
-        })
-        .collect()
+    let is_ours = |own: &Footer| own.sweep == wanted.sweep && parts.contains(&own.points);
+    let ours = |own: Option<Footer>| match own {
+        Some(own) if is_ours(&own) => Ok(own),
+        own => {
+            let differences = own.map(|own| wanted.identity.differences(&own.identity));
+            let fault = ShardFault::Taken(differences.unwrap_or_default());
+            Err(CliError::Shard { path: folder.path().to_owned(), fault })
+        }
+    };
+    footers.map(ours).collect()
 }
 
 /// The points that are there.
@@ -199,16 +228,17 @@ impl Study for Parts<'_> {
             text.items([format!("{cut} may still grow after the end of their runs")]);
         }
         text.items(sum.left_out.iter().map(summary::LeftOut::in_words));
+        let first = |own: &Counted| self.wanted.varied.at(self.wanted.grid, own.first);
+        let points = |own: &Counted| match sum.points {
+            all if all == own.points => format!("all {all} points"),
+            all => format!("{} of {all} points", own.points),
+        };
         text.items(told(&sum.failed, |own| {
-            format!("{} without a solution: {}", counted(own.points, "point"), own.text)
+            format!("no solution at {}, first at {}: {}", points(own), first(own), own.text)
         }));
         text.items(told(&sum.warnings, |own| {
-            format!(
-                "warning `{}` at {}, at one of them: {}",
-                own.code,
-                counted(own.points, "point"),
-                own.text
-            )
+            let code = &own.code;
+            format!("warning `{code}` at {}, first at {}: {}", points(own), first(own), own.text)
         }));
         let rows = columns.iter().zip(&sum.extremes).map(|(column, own)| {
             let text = |own: f64| unit(column, own).text(own, DIGITS);

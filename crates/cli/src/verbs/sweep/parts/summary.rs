@@ -61,6 +61,8 @@ pub(super) struct Counted {
     pub(super) code: String,
     pub(super) text: String,
     pub(super) points: usize,
+    /// The first of them, by its number in the whole grid, from 0.
+    pub(super) first: usize,
 }
 
 /// How many points keep a limit.
@@ -72,14 +74,16 @@ pub(super) struct Kept {
 }
 
 impl Summary {
-    pub(super) fn of(report: &SweepReport) -> Self {
+    /// What is known of the points of a report, the first of which has the number `start` in the whole grid.
+    pub(super) fn of(report: &SweepReport, start: usize) -> Self {
         let failed = report.gaps.iter().filter(|own| own.column.is_none()).map(|own| {
             let text = own.reason.clone();
-            Counted { code: text.clone(), text, points: 1 }
+            Counted { code: text.clone(), text, points: 1, first: start + own.point }
         });
         let warnings = report.warnings.iter().map(|own| {
             let (code, text) = (own.warning.code().to_owned(), own.warning.to_string());
-            Counted { code, text, points: own.points.len() }
+            let first = start + own.points.first().copied().unwrap_or_default();
+            Counted { code, text, points: own.points.len(), first }
         });
         let extremes = |at: usize| {
             let finite = report.column(at).filter(|own| own.is_finite());

@@ -1,0 +1,221 @@
+//! What to do about an error.
+
+use dashpot_analysis::{RunError, similarity::SimilarityError, vibration::VibrationError};
+use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
+use dashpot_design::cushion::NoCushion;
+use dashpot_rheology::conversion::Unfit;
+use dashpot_scene::{suggestion, units::parse_dimension};
+use dashpot_signal::{CfcFault, ChannelFault, SettingsFault};
+
+use super::CliError;
+use crate::verbs::sweep::MISSING_HELP;
+
+impl CliError {
+    /// What to do, where that can be said.
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
+                Some(unquoted_help(name))
+            }
+            Self::Unreadable { similar: Some(similar), .. } => {
+                Some(format!("did you mean `{similar}`?"))
+            }
+            Self::BeyondEnd { .. } => {
+                Some("give a time within it, or a longer `duration` in [run]".to_owned())
+            }
+            Self::Cushion(error) => Some(cushion_help(error).to_owned()),
+            Self::NothingToKeep { .. } | Self::NoLimits => Some(
+                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
+                    .to_owned(),
+            ),
+            Self::Shard { fault, .. } => Some(fault.help().to_owned()),
+            Self::Interrupted { .. } => Some("the same command goes on from there".to_owned()),
+            Self::ColumnTaken { .. } => {
+                Some("give the column of the table another heading, such as `design`".to_owned())
+            }
+            Self::ShardsMissing { .. } => Some(MISSING_HELP.to_owned()),
+            Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),
+            Self::MeasuredTable { fault, .. } => fault.help(),
+            Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
+            Self::SignalSamples { fault, .. } => sample_help(fault),
+            Self::Signal { fault, .. } => signal_help(fault),
+            Self::SignalLimit { known, meant, .. } => Some(match meant {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => format!("there are {}", known.join(", ")),
+            }),
+            Self::Variation(fault) => Some(fault.help()),
+            Self::Listed { fault, .. } => Some(fault.help()),
+            Self::Tunable { fault, .. } | Self::Gradient(fault) => fault.help(),
+            Self::Run(
+                RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
+            ) => suggestion(key, "measures", known),
+            Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
+            Self::Unreadable { .. } => Some(
+                "`dashpot new --out pad.toml` writes a scene to start from, \
+                 `dashpot run` alone solves the built-in one"
+                    .to_owned(),
+            ),
+            Self::Foreign { help, .. } => Some((*help).to_owned()),
+            Self::Busy { .. } => {
+                Some("choose another folder for `--out`, or wait until it is done".to_owned())
+            }
+            Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => Some(
+                "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
+                    .to_owned(),
+            ),
+            Self::NotLinear { .. } => Some(
+                "only linear models can be converted and compared; `dashpot rheometer` tests any \
+                 model, and a scene runs it"
+                    .to_owned(),
+            ),
+            Self::MovingMasses { .. } => {
+                Some("`dashpot compare` compares such networks".to_owned())
+            }
+            Self::MaterialAndPad | Self::MaterialInImpact { .. } => Some(
+                "an element with `material`, `thickness` and `area` is a pad; name that".to_owned(),
+            ),
+            Self::NotReplaced { .. } => Some(
+                "give the model a table of its own, [models.NAME], and convert that".to_owned(),
+            ),
+            Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
+                let known = known.join(", ");
+                Some(if name == "drop" {
+                    format!(
+                        "`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}"
+                    )
+                } else {
+                    format!("there are {known}")
+                })
+            }
+            Self::Vibration(error) => vibration_help(error),
+            Self::Run(RunError::NoneGetsThrough { .. }) => Some(
+                "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
+                    .to_owned(),
+            ),
+            Self::Run(RunError::Solve(error)) => solve_help(error),
+            _ => None,
+        }
+    }
+}
+
+/// What to do about samples that are no signal.
+fn sample_help(fault: &ChannelFault) -> Option<String> {
+    let help = match fault {
+        ChannelFault::TimeBack { .. } => {
+            "sort the rows by time, and leave one of two rows of the same time; a file of several tests is to be cut \
+             into one for each"
+        }
+        ChannelFault::TooFew { .. } => "look whether the right file was exported, and whole",
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// What to do about a channel that cannot be read as it is asked for.
+fn signal_help(fault: &SettingsFault) -> Option<String> {
+    let help = match fault {
+        SettingsFault::NoRest => {
+            "give what the channel reads at rest, `--offset \"0.3 g\"`, or record from some ms before the pulse on"
+        }
+        SettingsFault::UnevenSteps { .. } => {
+            "`--rate \"20 kHz\"` reads the line between its samples at even steps"
+        }
+        SettingsFault::Cfc(CfcFault::TooSlow { .. }) => {
+            "SAE J211 wants a sampling rate of ten times the class: take a lower class, or record faster"
+        }
+        SettingsFault::NothingLeft(_) => {
+            "look at the times of the record: without `--from`, `--to` and `--rate` they are printed"
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// What to do about a scene that cannot be shaken.
+fn vibration_help(error: &VibrationError) -> Option<String> {
+    match error {
+        VibrationError::NoDrive { known, .. } => match known.first() {
+            Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
+            None => Some(
+                "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
+            ),
+        },
+        VibrationError::Loose { .. } => Some(
+            "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; \
+                 or leave out the separation: then it pulls as it pushes"
+                .to_owned(),
+        ),
+        VibrationError::NotLinear { .. } | VibrationError::OnStop { .. } => Some(
+            "`dashpot run` solves it in time: give the node that shakes \
+                 `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
+                 likewise a `force`), a `duration` of many periods, and ask for its measures with \
+                 `window = \"run\"`; or leave out of [effects] what switches"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// What to do about a solution that failed.
+fn solve_help(error: &SolveError) -> Option<String> {
+    match error {
+        SolveError::NotApplicable { .. } => Some("`--method auto` chooses one that can".to_owned()),
+        SolveError::TooManySteps { method, .. }
+        | SolveError::StepTooSmall { method, .. }
+        | SolveError::NewtonFailed { method, .. } => Some(if *method == Tsit45::KIND {
+            "an explicit method takes short steps where parts are stiff, whatever the \
+                     accuracy; `--method auto` chooses one that suits"
+                .to_owned()
+        } else {
+            "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks \
+                     for less"
+                .to_owned()
+        }),
+        SolveError::BudgetSpent { work, .. } => Some(format!(
+            "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for \
+                     less",
+            10.0 * *work as f64
+        )),
+        SolveError::TooManySwitches { .. } => Some(
+            "what loses nothing in its impacts bounces for ever, ever lower as others lose \
+                     speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"
+                .to_owned(),
+        ),
+        _ => None,
+    }
+}
+
+/// Whether a word is a unit, which belongs to the quantity before it.
+pub(crate) fn is_unit(word: &str) -> bool {
+    !["", "1"].contains(&word.trim()) && parse_dimension(word).is_ok()
+}
+
+/// What to write where the blank before a unit has divided a quantity.
+pub(crate) fn unquoted_help(unit: &str) -> String {
+    format!("`{unit}` is a unit: quote what belongs together, such as \"K=25 {unit}\"")
+}
+
+/// What to write where a scene is no drop onto a cushion.
+fn cushion_help(error: &NoCushion) -> &'static str {
+    match error {
+        NoCushion::NotOneBody { .. } => {
+            "give one node `drop` or `velocity`, or name the one that falls: `--platen NAME`"
+        }
+        NoCushion::NotOnePad { .. } => {
+            "give the element its `thickness` and `area`, or name it where there are several: `--pad NAME`"
+        }
+        NoCushion::Unknown { .. } => "write one of these names",
+        NoCushion::Hangs { .. } => {
+            "leave out what else is fastened to the platen; the guide of a drop tester bears no load"
+        }
+        NoCushion::NoArea { .. } => "give it one, `area = \"400 cm^2\"`, as the specimen has it",
+        NoCushion::NoWeight { .. } => "give gravity a positive `value`, or leave it out for 1 g0",
+        NoCushion::NoHeight { .. } => "give the body a `drop`, or `--heights \"30,60,90 cm\"`",
+        NoCushion::NoStress { .. } => "give a range: `--stress \"1..20 kPa,40,log\"`",
+        NoCushion::NoCreep { .. } => "leave `--creep` out for this cushion",
+        NoCushion::Network(_)
+        | NoCushion::NotPosed(_)
+        | NoCushion::Run(_)
+        | NoCushion::Sweep(_) => "`dashpot check SCENE` tells more",
+    }
+}

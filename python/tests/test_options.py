@@ -1,0 +1,100 @@
+"""Options: by their names in Python, in SI units, and what is said where one is wrong."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import dashpot
+
+pytestmark = pytest.mark.filterwarnings("ignore::dashpot.DashpotWarning")
+KEY = "padding.peak-force"
+FOAM = dashpot.Scene(
+    text="""
+[nodes]
+head = { mass = "5 kg", drop = "75 cm" }
+[elements]
+liner = { between = ["head", "ground"], spring = "20 kN/m", thickness = "3 cm", area = "60 cm^2" }
+[run]
+duration = "40 ms"
+"""
+)
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        lambda: dashpot.sweep("reference", {"head.velocity": [1.0]}, metod="bdf"),
+        lambda: dashpot.run("reference", metod="bdf"),
+        lambda: dashpot.Scene("reference").run(metod="bdf"),
+        lambda: dashpot.call("cost", "reference", metod="bdf"),
+    ],
+)
+def test_an_unknown_option_names_the_closest(work):
+    with pytest.raises(TypeError, match="no option 'metod': did you mean 'method'"):
+        work()
+
+
+def test_faults_of_options_name_them_as_python_does():
+    with pytest.raises(dashpot.SceneError) as found:
+        dashpot.sweep("reference", {"head.velocity": [1.0]}, method="eksact")
+    (fault,) = found.value.faults
+    assert fault["message"] == "invalid value 'eksact' for `method`"
+    assert "'exact'" in fault["help"] and "tr-bdf2" in fault["help"]
+    with pytest.raises(dashpot.SceneError) as found:
+        dashpot.call("run", "reference", at=7.0, out="none")
+    assert found.value.faults[0]["message"].startswith('`at="7 s"` lies beyond')
+    with pytest.raises(dashpot.SceneError, match="runn") as found:
+        dashpot.call("runn", "reference")
+    assert "'run'" in found.value.faults[0]["help"]
+
+
+def test_a_verb_without_an_object_says_so():
+    with pytest.raises(TypeError, match="`dashpot list` has no `--json`"):
+        dashpot.call("list", "methods")
+
+
+def test_an_unknown_number_names_those_that_there_are():
+    for value in (1.0, "1 m/s"):
+        with pytest.raises(dashpot.SceneError) as found:
+            dashpot.run("reference", {"head.velocit": value})
+        assert "`head.velocity`" in found.value.faults[0]["help"]
+
+
+def test_arguments_in_another_order_are_told(tmp_path):
+    grid = {"head.velocity": [1.0]}
+    with pytest.raises(TypeError, match="folder.*path, not a dict.*folder, vary"):
+        dashpot.sweep_to_parquet("reference", grid, tmp_path / "points")
+    with pytest.raises(TypeError, match="vary.*dictionary.*not a list"):
+        dashpot.sweep("reference", [KEY], grid)
+
+
+@pytest.mark.parametrize("stress", [[5e3, 1e4], np.array([5e3, 1e4]), ["5 kPa", 1e4], (5000, "10 kPa")])
+def test_lists_are_taken_where_the_command_takes_them(stress):
+    listed = dashpot.cushion(FOAM, stress=stress, heights=[0.3, 0.6])
+    assert listed == dashpot.cushion(FOAM, stress="5 kPa, 10 kPa", heights="30 cm, 60 cm")
+
+
+def test_numbers_have_the_unit_of_their_option():
+    own = dashpot.vibrate("reference", drive="ground", from_=10.0, to=np.float64(1e3), points=np.int64(5))
+    assert own == dashpot.vibrate("reference", drive="ground", **{"from": "10 Hz"}, to="1 kHz", points=5)
+
+
+def test_mixed_values_are_swept():
+    own = dashpot.sweep("reference", {"head.velocity": ["4 m/s", 5.0]}, [KEY])
+    assert (own.parameters["head.velocity"] == [4.0, 5.0]).all()
+
+
+def test_one_key_is_a_text():
+    assert list(dashpot.run("reference", measures=KEY)) == [KEY]
+
+
+def test_a_wrong_key_of_a_pickled_report_is_not_solved_for():
+    report = dashpot.run("reference", method="exact", measures=KEY)
+    again = pickle.loads(pickle.dumps(report))
+    with pytest.raises(KeyError, match=KEY):
+        again["padding.peak-forse"]
+    assert "_again" not in vars(again._own)
+    # What was not asked for is there all the same.
+    assert again["padding.impulse"].value == report["padding.impulse"].value
+    assert "_again" not in vars(again._own)
