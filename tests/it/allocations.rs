@@ -15,7 +15,7 @@ use std::{hint::black_box, ops::ControlFlow};
 use allocation_counter::measure;
 use dashpot::{
     analysis::{
-        SolveSettings,
+        Solve, SolveSettings,
         sweep::{Grid, ScenePoint, SweepOptions, columns, sweep},
     },
     dae::{Run, Silent, System, methods},
@@ -111,4 +111,18 @@ fn a_sweep_allocates_nothing_with_each_scene() {
     let ((few, small), (many, large)) = (swept([20, 20, 2]), swept([20, 20, 20]));
     let each = many.saturating_sub(few) as f64 / (large - small) as f64;
     assert!(each < 0.5, "{each} a scene: {few} of {small}, {many} of {large}");
+}
+
+/// How often a run of the reference may ask for memory, from its network to its report.
+const OF_A_RUN: u64 = 2500;
+
+#[test]
+fn a_run_by_itself_allocates_within_its_limit() {
+    let network = impact::network(1, 1e4);
+    let settings = SolveSettings::lasting(0.02);
+    let run = || drop(black_box(network.solve_with(&settings).unwrap()));
+    // What all runs share is made once.
+    run();
+    let counted = measure(run).count_total;
+    assert!(counted < OF_A_RUN, "{counted}");
 }

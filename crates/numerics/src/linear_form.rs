@@ -5,7 +5,12 @@ use std::{
     ops::{Add, Mul},
 };
 
+use smallvec::{SmallVec, smallvec};
+
 use crate::DoubleDouble;
+
+/// Terms of most forms, which take no memory besides.
+const INLINE: usize = 4;
 
 /// A coefficient of a [`LinearForm`].
 pub trait Coefficient:
@@ -50,7 +55,7 @@ fn is_nothing<T: Coefficient>(sum: T, largest: f64) -> bool {
 /// is to keep its digits: thirty-two of them leave sixteen of a rest over sixteen decades.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LinearForm<T = f64> {
-    terms: Vec<(usize, T)>,
+    terms: SmallVec<[(usize, T); INLINE]>,
 }
 
 impl<T: Coefficient> LinearForm<T> {
@@ -61,18 +66,19 @@ impl<T: Coefficient> LinearForm<T> {
 
     /// The variable of this number.
     pub fn variable(at: usize) -> Self {
-        Self { terms: vec![(at, T::ONE)] }
+        Self { terms: smallvec![(at, T::ONE)] }
     }
 
     /// The form `coefficient · z_variable`.
     pub fn term(variable: usize, coefficient: T) -> Self {
-        Self::sum(vec![(variable, coefficient)])
+        Self::sum([(variable, coefficient)])
     }
 
     /// The sum of `terms`, which may stand in any order and name a variable more than once.
-    pub fn sum(mut terms: Vec<(usize, T)>) -> Self {
+    pub fn sum(terms: impl IntoIterator<Item = (usize, T)>) -> Self {
+        let mut terms: SmallVec<[_; INLINE]> = terms.into_iter().collect();
         terms.sort_by_key(|term| term.0);
-        let mut merged = Vec::with_capacity(terms.len());
+        let mut merged = SmallVec::new();
         for group in terms.chunk_by(|one, other| one.0 == other.0) {
             let all = group.iter().map(|term| term.1);
             let largest = all.clone().map(|own| own.rounded().abs()).fold(0.0, f64::max);
@@ -84,8 +90,8 @@ impl<T: Coefficient> LinearForm<T> {
     }
 
     /// The form of these terms, each of another variable, in rising order; none is zero.
-    pub fn of(terms: Vec<(usize, T)>) -> Self {
-        Self { terms }
+    pub fn of(terms: impl IntoIterator<Item = (usize, T)>) -> Self {
+        Self { terms: terms.into_iter().collect() }
     }
 
     /// The terms `(variable, coefficient)` in rising order of the variable; none is zero.
@@ -107,7 +113,7 @@ impl<T: Coefficient> LinearForm<T> {
     /// `self + factor · other`; terms that cancel disappear.
     #[must_use]
     pub fn plus(&self, factor: T, other: &Self) -> Self {
-        let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
+        let mut terms = SmallVec::with_capacity(self.terms.len() + other.terms.len());
         let (mut left, mut right) = (self.terms.iter().peekable(), other.terms.iter().peekable());
         loop {
             let (variable, sum, largest) = match (left.peek(), right.peek()) {
@@ -155,7 +161,8 @@ impl<T: Coefficient> LinearForm<T> {
     /// The form over variables in units of their `scales`, each coefficient rounded once.
     pub fn scaled(&self, scales: &[f64]) -> LinearForm {
         let terms = self.terms.iter();
-        LinearForm::sum(terms.map(|&(at, own)| (at, own.rounded() * scales[at])).collect())
+        let terms = terms.map(|&(at, own)| (at, own.rounded() * scales[at]));
+        LinearForm::of(terms.filter(|term| term.1 != 0.0))
     }
 }
 
@@ -214,7 +221,7 @@ impl<'f> FormRef<'f> {
 
     /// The same form by itself.
     pub fn to_form(self) -> LinearForm {
-        LinearForm::of(self.terms().collect())
+        LinearForm::of(self.terms())
     }
 }
 

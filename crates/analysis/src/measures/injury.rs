@@ -9,7 +9,7 @@ use super::{
     Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
     hic_search::{optimum, optimum_of_magnitude},
 };
-use crate::{Note, Solution, VelocityJump};
+use crate::{Note, Solution, VelocityJump, plain::powers::raised};
 
 parameters! {
     /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.
@@ -51,7 +51,7 @@ impl MeasureKind for SeverityIndex {
         {
             return Ok(reading);
         }
-        let severity = |a: f64| (a.abs() / STANDARD_GRAVITY).powf(self.exponent);
+        let severity = |a: f64| raised(a.abs() / STANDARD_GRAVITY, self.exponent).0;
         let value = acceleration.integral_of(span.window(), &[0.0], severity);
         let last = severity(acceleration.left_value(span.to));
         let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
@@ -60,7 +60,7 @@ impl MeasureKind for SeverityIndex {
             let growth = |a: f64| {
                 let most = (a.abs() + error) / STANDARD_GRAVITY;
                 if n >= 1.0 {
-                    n * most.powf(n - 1.0) * error / STANDARD_GRAVITY
+                    n * raised(most, n).1 * error / STANDARD_GRAVITY
                 } else {
                     severity(error)
                 }

@@ -61,12 +61,11 @@ impl<'s> Scene<'s> {
         else {
             return None;
         };
-        let parametric = ParametricSystem::of(network, settings.duration)?;
+        let (parametric, numbers) = ParametricSystem::with_numbers(network, settings.duration)?;
         let is_covered = !parametric.is_linear() && parametric.opens();
         if !is_covered || parametric.states() > MOST_STATES || assembly.drives.len() > 1 {
             return None;
         }
-        let numbers = parametric.numbers(network)?;
         let struck = parametric.element();
         let is_whole = |(at, own): (usize, &ConnectionOutputs)| {
             let is_one = own.segments.iter().all(|part| {

@@ -98,36 +98,58 @@ impl Block {
         if is_squared { SQUARED * (self.len() * self.len()) as u64 } else { 0 }
     }
 
+    /// How it moves, to be asked at many times.
+    pub(super) fn motion(&self) -> Motion {
+        if self.len() == 1 {
+            let (shift, low) = (self.matrix[(0, 0)], self.low[(0, 0)]);
+            return Motion { shift, low, rest: DMatrix::zeros(0, 0), size: 0.0 };
+        }
+        // Around the fastest growing eigenvalue nothing that is left can overflow.
+        let shift = self.shift();
+        let rest = self.offset(shift);
+        let size = largest_column(&rest.map(Complex::norm));
+        Motion { shift, low: Complex::default(), rest, size }
+    }
+
+    /// `vector ← e^{D_i t} vector`.
+    pub(super) fn advance(&self, t: f64, vector: &mut [Complex]) {
+        self.motion().advance(t, vector);
+    }
+}
+
+/// The exponential of a block.
+#[derive(Debug)]
+pub(super) struct Motion {
+    shift: Complex,
+    low: Complex,
+    /// `D_i − shift`; nothing of a single mode.
+    rest: DMatrix<Complex>,
+    /// The largest sum of a column of it.
+    size: f64,
+}
+
+impl Motion {
     /// `vector ← e^{D_i t} vector`.
     pub(super) fn advance(&self, t: f64, vector: &mut [Complex]) {
         if vector.iter().all(|value| *value == Complex::default()) {
             return;
         }
-        if let [value] = vector {
-            *value *= exponential_of(self.matrix[(0, 0)], self.low[(0, 0)], t);
-            return;
-        }
-        // Around the fastest growing eigenvalue nothing that is left can overflow.
-        let shift = self.shift();
-        let mut rest = self.offset(shift);
-        rest *= Complex::new(t, 0.0);
-        let size = largest_column(&rest.map(Complex::norm));
-        let steps = (size / REACH).ceil().max(1.0);
-        let mut result = vector.to_vec();
-        if steps <= STEPS {
-            rest /= Complex::new(steps, 0.0);
-            let mut left = steps;
-            while left > 0.0 {
-                series(&rest, &mut result);
-                left -= 1.0;
+        let factor = exponential_of(self.shift, self.low, t);
+        if !self.rest.is_empty() {
+            let steps = (self.size * t / REACH).ceil().max(1.0);
+            if steps <= STEPS {
+                let part = self.rest.map(|own| own * t / steps);
+                let mut left = steps;
+                while left > 0.0 {
+                    series(&part, vector);
+                    left -= 1.0;
+                }
+            } else {
+                let result = squared(self.rest.map(|own| own * t), steps, vector);
+                vector.copy_from_slice(&result);
             }
-        } else {
-            result = squared(rest, steps, &result);
         }
-        let factor = exponential_of(shift, Complex::default(), t);
-        for (out, value) in vector.iter_mut().zip(result) {
-            *out = value * factor;
-        }
+        vector.iter_mut().for_each(|value| *value *= factor);
     }
 }
 
@@ -138,15 +160,15 @@ pub(super) fn largest_column(sizes: &DMatrix<f64>) -> f64 {
 
 /// `vector ← e^{matrix} vector` by its series, for small matrices.
 fn series(matrix: &DMatrix<Complex>, vector: &mut [Complex]) {
-    let mut term = vector.to_vec();
+    let (mut term, mut next) = (vector.to_vec(), vector.to_vec());
     for k in 1..TERMS {
-        let mut next = vec![Complex::default(); term.len()];
+        next.fill(Complex::default());
         for (j, t) in term.iter().enumerate() {
             for (i, n) in next.iter_mut().enumerate() {
                 *n += matrix[(i, j)] * t / k as f64;
             }
         }
-        term = next;
+        std::mem::swap(&mut term, &mut next);
         if term.iter().all(|t| *t == Complex::default()) {
             return;
         }

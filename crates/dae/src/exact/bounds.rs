@@ -29,17 +29,19 @@ impl Block {
         if self.len() == 1 {
             return sum;
         }
-        let mut term = vector.to_vec();
+        let sizes = self.matrix.map(Complex::norm);
+        let (mut term, mut next) = (vector.to_vec(), vec![0.0; vector.len()]);
         for k in 1..TERMS {
-            let mut next = vec![0.0; term.len()];
+            let step = s / k as f64;
+            next.fill(0.0);
             for (j, t) in term.iter().enumerate() {
                 for (i, n) in next.iter_mut().enumerate() {
                     if i != j {
-                        *n += self.matrix[(i, j)].norm() * t * (s / k as f64);
+                        *n += sizes[(i, j)] * t * step;
                     }
                 }
             }
-            term = next;
+            std::mem::swap(&mut term, &mut next);
             let weight = factor(k);
             let mut settled = true;
             for (sum, t) in sum.iter_mut().zip(&term) {
@@ -139,15 +141,14 @@ impl Block {
 
     /// `|row| |D_i h|^n / n!`, the share of each mode in the `n`-th Taylor term of `row · e^{D_i h}`.
     pub(super) fn derivative_weights(&self, row: &[f64], h: f64, n: usize) -> Vec<f64> {
-        let mut weights = row.to_vec();
+        let sizes = self.matrix.map(Complex::norm);
+        let (mut weights, mut next) = (row.to_vec(), row.to_vec());
         for order in 1..=n {
-            let mut next = vec![0.0; weights.len()];
-            for (j, value) in next.iter_mut().enumerate() {
-                for (i, w) in weights.iter().enumerate() {
-                    *value += w * self.matrix[(i, j)].norm() * (h / order as f64);
-                }
+            let step = h / order as f64;
+            for (value, column) in next.iter_mut().zip(sizes.column_iter()) {
+                *value = weights.iter().zip(&column).map(|(w, size)| w * size * step).sum();
             }
-            weights = next;
+            std::mem::swap(&mut weights, &mut next);
         }
         weights
     }

@@ -140,9 +140,10 @@ impl ModalRow {
             }
             return;
         }
+        let (motion, mut vector) = (block.motion(), coordinates.to_vec());
         for (value, time) in values.iter_mut().zip(times) {
-            let mut vector = coordinates.to_vec();
-            block.advance(time, &mut vector);
+            vector.copy_from_slice(coordinates);
+            motion.advance(time, &mut vector);
             *value += factors.iter().zip(&vector).map(|(r, c)| (r * c).re).sum::<f64>();
         }
     }

@@ -26,6 +26,8 @@ const NARROWEST: f64 = 1e-18;
 const TIMING: f64 = f64::EPSILON;
 /// Most steps by which a panel is wider than the one before.
 const WIDER: i32 = 8;
+/// Panels of a span up to which every other step will do: tables of few widths cost more than the panels saved.
+const FEW: usize = 64;
 /// Part of the tolerance that all modes which are left out may contribute.
 const FAINT: f64 = 1e-4;
 
@@ -143,6 +145,8 @@ struct Walk<'m> {
     sizes: Vec<f64>,
     /// The step of the widths that was taken last.
     step: Option<i32>,
+    /// How many panels are behind it.
+    panels: usize,
     /// Where the coordinates have been found by themselves, as those of a chain of panels.
     anchor: Option<Anchor>,
     width: Width,
@@ -183,6 +187,7 @@ impl<'m> Walk<'m> {
             coordinates: start.to_vec(),
             sizes: vec![0.0; start.len()],
             step: None,
+            panels: 0,
             anchor: Some(Anchor { coordinates: start.to_vec(), step: None, links: 0 }),
             width: Width::Odd(length),
             missed: 0.0,
@@ -216,6 +221,7 @@ impl<'m> Walk<'m> {
                 return (Width::Odd(remaining), missed);
             }
         }
+        let grain = if self.panels < FEW { 2 } else { 1 };
         let most = step_of(remaining);
         let mut step = self.step.unwrap_or(most).min(most);
         let mut above = most.min(step.saturating_add(WIDER)).saturating_add(1);
@@ -230,14 +236,15 @@ impl<'m> Walk<'m> {
             let factor = if factor > 0.1 { factor } else { 0.1 };
             above = step;
             step = step_of(factor * width).min(step - 1);
+            step -= step.rem_euclid(grain);
             missed = self.missed_at(step);
         }
-        while step + 1 < above {
-            let wider = self.missed_at(step + 1);
+        while step + grain < above {
+            let wider = self.missed_at(step + grain);
             if wider.is_nan() || wider > tolerance {
                 break;
             }
-            (step, missed) = (step + 1, wider);
+            (step, missed) = (step + grain, wider);
         }
         let width = width_of(step);
         if width >= remaining {
@@ -318,6 +325,7 @@ impl<'m> Walk<'m> {
 
     /// Goes on to the start of the next panel, or to the end of the span.
     fn go_on(&mut self) {
+        self.panels += 1;
         let before = self.at;
         let (width, step) = match self.width {
             Width::Odd(width) if width >= self.length - before => {

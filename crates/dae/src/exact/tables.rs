@@ -65,13 +65,11 @@ pub(super) struct Shape {
 impl Shape {
     pub(super) const ZERO: Self = Self { re: [0.0; COUNT], im: [0.0; COUNT] };
 
-    fn of(values: &[Complex]) -> Self {
+    fn of(values: &[Complex; COUNT]) -> Self {
         let mut shape = Self::ZERO;
         let interpolation = Interpolation::of_degree(DEGREE);
-        let parts: Vec<f64> = values.iter().map(|value| value.re).collect();
-        interpolation.coefficients(&parts, &mut shape.re);
-        let parts: Vec<f64> = values.iter().map(|value| value.im).collect();
-        interpolation.coefficients(&parts, &mut shape.im);
+        interpolation.coefficients(&values.map(|value| value.re), &mut shape.re);
+        interpolation.coefficients(&values.map(|value| value.im), &mut shape.im);
         shape
     }
 
@@ -185,25 +183,28 @@ impl Course {
         let times = nodes.nodes().iter().map(|x| 0.5 * width * (1.0 + x));
         if block.len() == 1 {
             let (high, low) = (block.matrix[(0, 0)], block.low[(0, 0)]);
-            let values: Vec<Complex> = times.map(|t| exponential_of(high, low, t)).collect();
+            let mut values = [Complex::default(); COUNT];
+            values.iter_mut().zip(times).for_each(|(own, t)| *own = exponential_of(high, low, t));
             let link = |k: usize| exponential_of(high, low, (k + 1) as f64 * width);
             let (shape, links) =
                 (Box::new(Shape::of(&values)), Box::new(std::array::from_fn(link)));
             return Self::Single { shape, links };
         }
         let count = block.len();
-        let mut values = vec![vec![Complex::default(); COUNT]; count * count];
+        let motion = block.motion();
+        let mut values = vec![[Complex::default(); COUNT]; count * count];
+        let mut column = vec![Complex::default(); count];
         for (node, time) in times.enumerate() {
             for j in 0..count {
-                let mut column = vec![Complex::default(); count];
+                column.fill(Complex::default());
                 column[j] = Complex::new(1.0, 0.0);
-                block.advance(time, &mut column);
-                for (i, value) in column.into_iter().enumerate() {
-                    values[j * count + i][node] = value;
+                motion.advance(time, &mut column);
+                for (i, value) in column.iter().enumerate() {
+                    values[j * count + i][node] = *value;
                 }
             }
         }
-        Self::Cluster(values.iter().map(|values| Shape::of(values)).collect())
+        Self::Cluster(values.iter().map(Shape::of).collect())
     }
 }
 

@@ -15,9 +15,9 @@ fn problem(problem: Problem) -> Problem {
     let system = &mut problem.system;
     let form = |count: usize, sign: f64| {
         let term = |at: usize| (at, if at % 2 == 1 { sign } else { 1.0 });
-        LinearForm::sum((0..count).map(term).collect())
+        LinearForm::sum((0..count).map(term))
     };
-    let inputs = LinearForm::sum((0..system.inputs.len()).map(|at| (at, 0.5)).collect());
+    let inputs = LinearForm::sum((0..system.inputs.len()).map(|at| (at, 0.5)));
     let sum = form(system.unknowns.len(), 1.0);
     system.outputs.push("sum", "m", 0.25, &sum, &LinearForm::zero());
     system.outputs.push("driven", "m", 0.25, &form(2, -1.0), &inputs);

@@ -95,7 +95,7 @@ impl Rows {
         let form = |from: u32, to: u32| {
             let place = from as usize..to as usize;
             let variables = self.variables[place.clone()].iter().map(|&own| own as usize);
-            Form::of(variables.zip(self.coefficients[place].iter().copied()).collect())
+            Form::of(variables.zip(self.coefficients[place].iter().copied()))
         };
         Some(Row { unknowns: form(start, middle), inputs: form(middle, end) })
     }

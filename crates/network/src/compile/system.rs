@@ -148,7 +148,8 @@ fn scaled(row: &Row, columns: &[f64], input_columns: &[f64]) -> (LinearForm, Lin
 }
 
 fn divided(form: &LinearForm, by: f64) -> LinearForm {
-    LinearForm::sum(form.terms().iter().map(|&(at, value)| (at, value / by)).collect())
+    let terms = form.terms().iter().map(|&(at, value)| (at, value / by));
+    LinearForm::of(terms.filter(|term| term.1 != 0.0))
 }
 
 fn largest(form: &LinearForm) -> f64 {

@@ -2,6 +2,10 @@
 //!
 //! A slice of coefficients is a polynomial; the empty slice is zero.
 
+use std::borrow::Cow;
+
+use smallvec::{SmallVec, smallvec};
+
 mod coefficients;
 mod interpolation;
 mod roots;
@@ -12,6 +16,8 @@ pub use roots::{bracketed_root, sign_changes};
 
 /// Places that are worked on side by side, so that the recurrences do not wait for each other.
 const LANES: usize = 6;
+/// Places of a polynomial of usual degree, which take no memory besides.
+const PLACES: usize = 18;
 
 /// The values `p(−1)` and `p(1)` at both ends, to the last bit those of [`evaluate`].
 #[inline]
@@ -119,30 +125,39 @@ pub fn integral(coefficients: &[f64]) -> f64 {
 
 /// The integral of `p q` over `[−1, 1]`: `∫ T_j T_k = 1/(1 − (j + k)²) + 1/(1 − (j − k)²)` for even `j + k`.
 pub fn integral_of_product(p: &[f64], q: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (j, one) in p.iter().enumerate() {
-        let alike = q.iter().enumerate().skip(j % 2).step_by(2);
-        let own =
-            alike.map(|(k, other)| other * (even_integral(j + k) + even_integral(j.abs_diff(k))));
-        sum += one * own.sum::<f64>();
-    }
-    sum
-}
-
-/// Half of `∫ T_m` for an even `m`.
-fn even_integral(m: usize) -> f64 {
-    const READY: [f64; 32] = {
-        let mut ready = [0.0; 32];
+    const READY: [f64; 63] = {
+        let mut ready = [0.0; 63];
         let mut at = 0;
         while at < ready.len() {
-            let order = 2.0 * at as f64;
-            ready[at] = 1.0 / (1.0 - order * order);
+            ready[at] = half_of_even(at as f64 - 31.0);
             at += 1;
         }
         ready
     };
-    let order = m as f64;
-    READY.get(m / 2).copied().unwrap_or_else(|| 1.0 / (1.0 - order * order))
+    // Orders of one parity by halves of them, so that those of all `j` adjoin.
+    let reach = p.len().max(q.len());
+    let (table, middle) = if reach <= 32 {
+        (Cow::Borrowed(READY.as_slice()), 31)
+    } else {
+        let own = (0..=2 * reach).map(|at| half_of_even(at as f64 - reach as f64));
+        (Cow::Owned(own.collect()), reach)
+    };
+    let mut sums = Coefficients::zeros(p.len());
+    let (even, odd) = sums.split_at_mut(p.len().div_ceil(2));
+    for (k, factor) in q.iter().enumerate() {
+        let (own, of_odd) = if k.is_multiple_of(2) { (&mut *even, 0) } else { (&mut *odd, 1) };
+        let (above, below) = (&table[middle + k / 2 + of_odd..], &table[middle - k / 2..]);
+        for ((sum, above), below) in own.iter_mut().zip(above).zip(below) {
+            *sum += factor * (above + below);
+        }
+    }
+    let sums = |j: usize| if j.is_multiple_of(2) { even[j / 2] } else { odd[j / 2] };
+    p.iter().enumerate().map(|(j, own)| own * sums(j)).sum()
+}
+
+/// Half of `∫ T_m` for an even `m`, of half of which it is told.
+const fn half_of_even(half: f64) -> f64 {
+    1.0 / (1.0 - 4.0 * half * half)
 }
 
 /// The polynomial seen on `[a, b]` only: the `q` of the same degree with
@@ -154,8 +169,8 @@ pub fn restrict(coefficients: &[f64], a: f64, b: f64) -> Coefficients {
         // Exact at both ends, so that adjoining restrictions share their border.
         if node < 0.0 { a + 0.5 * (b - a) * (1.0 + node) } else { b - 0.5 * (b - a) * (1.0 - node) }
     };
-    let places: Coefficients = interpolation.nodes().iter().map(place).collect();
-    let mut values = Coefficients::zeros(degree + 1);
+    let places: SmallVec<[f64; PLACES]> = interpolation.nodes().iter().map(place).collect();
+    let mut values: SmallVec<[f64; PLACES]> = smallvec![0.0; degree + 1];
     evaluate_all(coefficients, &places, &mut values);
     let mut restricted = Coefficients::zeros(degree + 1);
     interpolation.coefficients(&values, &mut restricted);

@@ -196,3 +196,16 @@ fn sign_changes_of_random_polynomials_agree_with_dense_samples() {
         }
     }
 }
+
+#[test]
+fn products_are_integrated_as_the_polynomials_that_they_are() {
+    let mut stream = Stream::new(7);
+    for [one, other] in
+        [[0, 0], [3, 0], [0, 4], [5, 5], [16, 15], [31, 31], [2, 31], [32, 1], [40, 33]]
+    {
+        let (p, q) = (coefficients(&mut stream, one), coefficients(&mut stream, other));
+        let product = interpolate(one + other, |x| evaluate(&p, x) * evaluate(&q, x));
+        let off = integral_of_product(&p, &q) - integral(&product);
+        assert!(off.abs() < 1e-15 * bound(&p) * bound(&q), "{one} and {other}: {off:e}");
+    }
+}

@@ -60,6 +60,9 @@ struct Part<'a> {
 
 impl Part<'_> {
     fn areas_until(&self, t: f64) -> [f64; 2] {
+        if t <= self.start {
+            return self.before;
+        }
         let half = 0.5 * self.panel.length();
         let value = chebyshev::evaluate(&self.antiderivative, self.panel.place(t));
         let own = (self.sign * half * (value - self.offset)).max(0.0);

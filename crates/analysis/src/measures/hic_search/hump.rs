@@ -28,15 +28,17 @@ pub(super) fn optimum(area: &Area<'_>, cap: f64) -> Option<Optimum> {
     // The highest level has no interval of any length; there it is the mean itself.
     let slack =
         |at: usize| if at < LEVELS { hump.slack(level(at), ROUGH * range) } else { 0.4 * highest };
-    let slacks: [f64; LEVELS + 1] = std::array::from_fn(slack);
-    let turn = slacks.iter().position(|slack| *slack > 0.0)?;
-    if slacks[turn..].iter().any(|slack| *slack <= 0.0) {
+    let is_known = |at: usize| if at < LEVELS { hump.is_slack(level(at)) } else { Some(true) };
+    let is_slack = |at: usize| is_known(at).unwrap_or_else(|| slack(at) > 0.0);
+    let signs: [bool; LEVELS + 1] = std::array::from_fn(is_slack);
+    let turn = signs.iter().position(|is_slack| *is_slack)?;
+    if signs[turn..].contains(&false) {
         return None;
     }
     let near = NEAR * range;
     let mut best = lowest;
     if turn > 0 {
-        let at = |at: usize| (level(at), slacks[at]);
+        let at = |at: usize| (level(at), slack(at));
         best = root(at(turn - 1), at(turn), near, |level| hump.slack(level, near));
     }
     let mut interval = hump.above(best, near);
@@ -102,9 +104,8 @@ impl<'h, 'a> Hump<'h, 'a> {
             if end.1 >= level {
                 return end.0;
             }
-            let sides = if end.0 < self.top.0 { [end, self.top] } else { [self.top, end] };
             let [before, after] =
-                self.area.around(level, sides).map(|(time, height)| (time, height - level));
+                self.around(level, end).map(|(time, height)| (time, height - level));
             match [before.1.abs() <= near, after.1.abs() <= near] {
                 [true, _] => before.0,
                 [_, true] => after.0,
@@ -112,6 +113,23 @@ impl<'h, 'a> Hump<'h, 'a> {
             }
         };
         (side(self.ends[0]), side(self.ends[1]))
+    }
+
+    /// Neighbours between which it passes a level on the side of an end.
+    fn around(&self, level: f64, end: (f64, f64)) -> [(f64, f64); 2] {
+        let sides = if end.0 < self.top.0 { [end, self.top] } else { [self.top, end] };
+        self.area.around(level, sides)
+    }
+
+    /// Whether `c − 0.6 m(c)` is positive, where it is so, or not, wherever the ends lie between their neighbours.
+    fn is_slack(&self, level: f64) -> Option<bool> {
+        let side = |end: (f64, f64)| {
+            if end.1 >= level { [end.0; 2] } else { self.around(level, end).map(|own| own.0) }
+        };
+        let ([out_before, before], [after, out_after]) = (side(self.ends[0]), side(self.ends[1]));
+        let most = self.area.between(out_before, out_after) / (after - before);
+        let least = self.area.between(before, after) / (out_after - out_before);
+        if level > 0.6 * most { Some(true) } else { (level < 0.6 * least).then_some(false) }
     }
 
     /// `c − 0.6 m(c)`.

@@ -81,7 +81,7 @@ impl Scene {
                 inputs = LinearForm::term(next, 1.0);
                 next += 1;
             }
-            let unknowns = LinearForm::sum(form.into_iter().enumerate().collect());
+            let unknowns = LinearForm::sum(form.into_iter().enumerate());
             outputs.push("output", "", 1.0, &unknowns, &inputs);
         }
         System {

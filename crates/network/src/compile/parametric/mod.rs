@@ -130,24 +130,37 @@ impl ParametricSystem {
     /// cannot be compiled.
     pub fn of(network: &Network, duration: f64) -> Option<Self> {
         let first = FirstPhases::of(network)?;
-        let fingerprint = fingerprint(&first)?;
         let bodies = Bodies::of(&first.network, &first.expansion).ok()?;
-        let structure = Structure::of(&first.network, &first.expansion, &bodies, duration).ok()?;
+        Self::of_first(&first, &bodies, duration)
+    }
+
+    /// The form of a network, and its [numbers](Self::numbers).
+    pub fn with_numbers(network: &Network, duration: f64) -> Option<(Self, Vec<f64>)> {
+        let first = FirstPhases::of(network)?;
+        let bodies = Bodies::of(&first.network, &first.expansion).ok()?;
+        let own = Self::of_first(&first, &bodies, duration)?;
+        let numbers = own.numbers_of(&first, &bodies)?;
+        Some((own, numbers))
+    }
+
+    fn of_first(first: &FirstPhases<'_>, bodies: &Bodies, duration: f64) -> Option<Self> {
+        let fingerprint = fingerprint(first)?;
+        let structure = Structure::of(&first.network, &first.expansion, bodies, duration).ok()?;
         if (0..structure.clusters.len()).any(|cluster| structure.is_algebraic(cluster)) {
             return None;
         }
         let mut inputs = Inputs::default();
-        let scales = Scales::of(&bodies, &structure, &Drives::default(), duration, false).ok()?;
+        let scales = Scales::of(bodies, &structure, &Drives::default(), duration, false).ok()?;
         let places = unknowns::choose(
             &first.network,
             &first.expansion,
-            &bodies,
+            bodies,
             &structure,
             &scales,
             &BTreeMap::new(),
             &mut inputs,
         );
-        Self::assembled(&first, fingerprint, &bodies, &structure, &scales, &places)
+        Self::assembled(first, fingerprint, bodies, &structure, &scales, &places)
     }
 
     /// Number of unknowns.
@@ -199,7 +212,10 @@ impl ParametricSystem {
         {
             return None;
         }
-        let bodies = Bodies::of(&first.network, &first.expansion).ok()?;
+        self.numbers_of(&first, &Bodies::of(&first.network, &first.expansion).ok()?)
+    }
+
+    fn numbers_of(&self, first: &FirstPhases<'_>, bodies: &Bodies) -> Option<Vec<f64>> {
         let mut numbers = Vec::with_capacity(self.numbers);
         let mut curves = self.curves.iter();
         for primitive in &first.expansion.primitives {
