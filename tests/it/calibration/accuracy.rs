@@ -72,7 +72,7 @@ fn one_in_ten_thousand_is_kept() {
 
 #[test]
 fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
-    // At the tolerances that this takes the steps of `bdf` become too small at the start.
+    // At the tolerances that this takes the steps of `dop853`, and of `bdf` after it, become too small at the start.
     let text = "[nodes]\n\
         head = { mass = \"10.83 g\", velocity = \"0.5035 m/s\" }\n\
         [elements.pad]\n\
@@ -91,13 +91,23 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
         duration = \"0.9251 s\"\n";
     let scene = read(text, &ReadOptions::default()).unwrap().value;
     let mut settings = scene.settings("auto").unwrap();
-    settings.accuracy.default = 1.3e-6;
+    let wanted = 3e-7;
+    settings.accuracy.default = wanted;
     let report = scene.network.solve_with(&settings).unwrap();
-    assert!(!admits(&report), "{:?}", report.warnings);
     assert_eq!(report.solver.method, "esdirk34");
     assert!(report.solver.why.contains("`dop853` does not reach"), "{}", report.solver.why);
-    let by_bdf = scene.network.solve_with(&settings.by_name("bdf").unwrap()).unwrap();
-    assert!(admits(&by_bdf), "{:?}", by_bdf.solver);
+    let first = scene.network.solve_with(&settings.by_name("dop853").unwrap()).unwrap();
+    assert!(admits(&first), "{:?}", first.solver);
+    let pairs = report.measures.iter().zip(&first.measures);
+    let errors: Vec<_> = pairs
+        .filter_map(|(own, first)| {
+            let size = first.value?.abs();
+            Some((own.error? / size, first.error? / size))
+        })
+        .collect();
+    println!("{errors:?}");
+    assert!(errors.iter().all(|&(own, first)| own <= first.max(wanted)), "{errors:?}");
+    assert!(errors.iter().any(|&(own, first)| own < first && first > wanted), "{errors:?}");
 }
 
 #[test]
