@@ -80,10 +80,10 @@ def in_python(verb: str, text: str | None) -> str | None:
     known = options_of(verb) or {}
 
     def flag(text: str) -> str | None:
-        name, rest = _FLAG.fullmatch(text.strip()).groups()
-        value = rest.strip(" =.")
-        if _keyword(name) not in known:
+        own = _FLAG.fullmatch(text.strip())
+        if own is None or _keyword(own[1]) not in known:
             return None
+        name, value = own[1], own[2].strip(" =.")
         if not value or value.startswith("<"):
             return _keyword(name)
         return f"{_keyword(name)}={value}" if value[0] == '"' else f'{_keyword(name)}="{value}"'
@@ -112,12 +112,16 @@ def _keyword(name: str) -> str:
 def _words(option: Option, value: Any, scene: Any) -> list[str]:
     flag = f"--{option.name}"
     if isinstance(value, (bool, np.bool_)):
+        if "always" in option.words:
+            return [f"{flag}={'always' if value else 'never'}"]
         if "off" in option.words:
             on = "on" if "on" in option.words else option.words[0]
             return [f"{flag}={on if value else 'off'}"]
         return [flag] if value else []
     if value is None:
         return []
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, Mapping):
         all_ = [f"{key}={values(key, own, scene)}" for key, own in value.items()]
     elif isinstance(value, Iterable) and not isinstance(value, (str, os.PathLike)):

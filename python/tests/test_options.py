@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import dashpot
+from dashpot import _options
 
 pytestmark = pytest.mark.filterwarnings("ignore::dashpot.DashpotWarning")
 KEY = "padding.peak-force"
@@ -98,3 +99,8 @@ def test_a_wrong_key_of_a_pickled_report_is_not_solved_for():
     # What was not asked for is there all the same.
     assert again["padding.impulse"].value == report["padding.impulse"].value
     assert "_again" not in vars(again._own)
+
+
+def test_words_of_the_command_that_are_no_options_stay() -> None:
+    for text in ("to pass '--foo' as a value, use '-- --foo'", "unexpected argument '--Foo' found"):
+        assert _options.in_python("run", text) == text

@@ -162,6 +162,22 @@ fn the_thinnest_cushion_keeps_the_limit_and_a_thinner_one_does_not() {
 }
 
 #[test]
+fn the_lightest_cushion_does_not_depend_on_how_wide_the_range_is() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), ""));
+    let lightest = |over: &str| {
+        let asked = ["--heights", "76 cm", "--thickness", "6 cm", "--limit", "50 g"];
+        let own = [&["cushion", text(&path), "--json", "--over", over], &asked[..]].concat();
+        json(&own)["thinnest"][0]["lightest"]["volume_per_weight"].as_f64().unwrap()
+    };
+    // The least volume of one thickness is at the largest stress that it bears.
+    let all = ["4..6 kPa", "1..6 kPa", "0.5..12 kPa"].map(lightest);
+    println!("{all:?}");
+    let [least, most] = [f64::min, f64::max].map(|of| all.into_iter().reduce(of).unwrap());
+    assert!(most / least < 1.002, "{all:?}");
+}
+
+#[test]
 fn a_folder_has_a_figure_for_each_height_and_the_text_says_what_is_not_known() {
     let folder = TempDir::new().unwrap();
     let path = file(&folder, "foam.toml", &scene(&foam(&folder, "0.4 kPa s"), ""));

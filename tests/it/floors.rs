@@ -20,8 +20,12 @@ use dashpot::{
     units::STANDARD_GRAVITY,
 };
 
-/// What linear programmes on 120 and 240 steps may be off by at the limit of no steps that they tell together.
-const PROGRAMME: f64 = 1e-3;
+/// What a linear programme on 240 steps is off by, where windows of impulse are judged at the limit of no steps: there
+/// errors fall as the length of the steps to this power.
+const PROGRAMME: f64 = 5e-5;
+const ORDER: f64 = 1.6;
+/// Tangents in place of powers, and a travel that is kept at the ends of steps alone, take more from a severity index.
+const TANGENTS: f64 = 1e-3;
 
 #[test]
 fn the_floors_are_those_of_linear_programmes() {
@@ -50,11 +54,16 @@ fn the_floors_are_those_of_linear_programmes() {
             [Judged::PeakAcceleration, Judged::Hic { cap }, Judged::SeverityIndex { exponent }];
         for (judged, right) in judged.into_iter().zip(all[8..].chunks(2)) {
             let own = floors.stroke.floor(judged).unwrap();
-            // Steps of a constant force cost a part of the first order in their length.
-            let right = 2.0 * right[1] - right[0];
+            let (right, room) = match judged {
+                Judged::Hic { .. } => {
+                    (right[1] + (right[1] - right[0]) / (2_f64.powf(ORDER) - 1.0), PROGRAMME)
+                }
+                Judged::SeverityIndex { .. } => (right[1], TANGENTS),
+                _ => (right[1], PROGRAMME),
+            };
             let off = own.value / right - 1.0;
             println!("{} {judged:?}: {} for {right}, {off:.1e}", &row[0], own.value);
-            assert!(off.abs() < PROGRAMME, "{} {judged:?}: {own:?} for {right}", &row[0]);
+            assert!(off.abs() < room, "{} {judged:?}: {own:?} for {right}", &row[0]);
         }
     }
 }

@@ -8,8 +8,8 @@ than the criterion allows. The severity index is convex: its powers are bounded 
 programme, too. The support is a mass on a spring and a dashpot, whose response to a unit impulse is written down here
 and integrated by Gauss's rule.
 
-Steps of a constant force cost a part of the first order in their length, most where a window begins with a peak
-(s^-0.4): both counts are printed, and what they tell of steps of no length is twice the second less the first.
+Steps of a constant force cost most where a window begins with a peak (s^-0.4): on a fixed support, where the least HIC
+is known in closed form, errors fall as the length of the steps to the power 1.6. Both counts are printed.
 """
 
 from math import cosh, cos, exp, sin, sinh, sqrt

@@ -13,7 +13,7 @@ pub struct NodeOutputs {
     pub name: String,
     /// Its own mass \[kg\].
     pub mass: f64,
-    /// Its start velocity \[m/s\], where it is an impactor.
+    /// Its start velocity \[m/s\], where it is an impactor: of one that is dropped that at touch.
     pub start_velocity: Option<f64>,
     /// How long it falls freely from rest before it touches anything \[s\]; 0 where it begins at touch.
     pub fall: f64,

@@ -77,16 +77,7 @@ impl CliError {
             Self::NotReplaced { .. } => Some(
                 "give the model a table of its own, [models.NAME], and convert that".to_owned(),
             ),
-            Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
-                let known = known.join(", ");
-                Some(if name == "drop" {
-                    format!(
-                        "`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}"
-                    )
-                } else {
-                    format!("there are {known}")
-                })
-            }
+            Self::Similarity(error) => similarity_help(error),
             Self::Vibration(error) => vibration_help(error),
             Self::Run(RunError::NoneGetsThrough { .. }) => Some(
                 "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
@@ -96,6 +87,17 @@ impl CliError {
             _ => None,
         }
     }
+}
+
+/// What to do about a parameter that the scene does not have.
+fn similarity_help(error: &SimilarityError) -> Option<String> {
+    let SimilarityError::UnknownQuantity { name, known } = error else { return None };
+    let known = known.join(", ");
+    Some(if name == "drop" {
+        format!("`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}")
+    } else {
+        format!("there are {known}")
+    })
 }
 
 /// What to do about samples that are no signal.

@@ -1,5 +1,7 @@
 //! The thinnest cushion that keeps a limit over a range of static stresses, and the lightest.
 
+use dashpot_numerics::extrema::maximum;
+
 use super::{
     CushionPoint, Sure,
     best::ratios,
@@ -13,6 +15,8 @@ const NEAREST: f64 = 1e-6;
 pub(super) const ROUGHLY: f64 = 2e-4;
 /// Stresses of the range at which it has to be kept, at equal ratios.
 const STRESSES: u16 = 13;
+/// Steps of the search for the lightest one between these: to a thousandth of their distance.
+const STEPS: usize = 14;
 
 /// Why no cushion that was looked at will do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,8 +37,8 @@ pub struct Thinnest {
     pub over_all: Result<(f64, CushionPoint), Unmet>,
     /// Whether the thinnest thickness that was asked for already keeps it: a thinner one may as well.
     pub is_first: bool,
-    /// The least volume for a weight, `t/σ` \[m³/N\], with its thickness \[m\] and stress \[Pa\] within the range, where
-    /// any keeps the limit.
+    /// The least volume for a weight, `t/σ` \[m³/N\], with its thickness \[m\] and stress \[Pa\] within the range, to a
+    /// thousandth, where any keeps the limit.
     pub lightest: Option<[f64; 3]>,
     /// How sure it is, where there is scatter and a thickness keeps the limit.
     pub sure: Option<Sure>,
@@ -66,9 +70,12 @@ impl Question<'_> {
             let own = of.least(&[first, thickest], &[stress], nearest).ok()?;
             Some([own.thickness / stress, own.thickness, stress])
         };
-        let rough = self.stresses().filter_map(|stress| volume(stress, ROUGHLY));
-        let least = rough.min_by(|one, other| one[0].total_cmp(&other[0]));
-        let lightest = least.and_then(|own| volume(own[2], NEAREST));
+        let stresses: Vec<f64> = self.stresses().collect();
+        let least = least_within(&stresses, |stress| {
+            volume(stress, ROUGHLY).map_or(f64::INFINITY, |own| own[0])
+        });
+        let own = least.filter_map(|stress| volume(stress, NEAREST));
+        let lightest = own.min_by(|one, other| one[0].total_cmp(&other[0]));
         let is_first = found.as_ref().is_ok_and(|own| own.0.is_first);
         let over_all = found.map(|own| (own.0.thickness, own.1));
         Thinnest { height, over_all, is_first, lightest, sure: None }
@@ -77,6 +84,18 @@ impl Question<'_> {
     fn stresses(&self) -> impl Iterator<Item = f64> {
         within(self.over)
     }
+}
+
+/// Where a value is least: at the least one of several stresses, and between those beside it.
+fn least_within(stresses: &[f64], value: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
+    let values: Vec<f64> = stresses.iter().map(|own| value(*own)).collect();
+    let all = values.iter().enumerate();
+    let at = all.min_by(|one, other| one.1.total_cmp(other.1)).map_or(0, |own| own.0);
+    let beside =
+        at.checked_sub(1).and_then(|before| stresses.get(before)).zip(stresses.get(at + 1));
+    let between = beside
+        .map(|(low, high)| maximum(low.ln(), high.ln(), STEPS, |own| -value(own.exp())).0.exp());
+    [Some(stresses[at]), between].into_iter().flatten()
 }
 
 /// The stresses of a range at which a limit has to be kept.

@@ -200,5 +200,5 @@ impl Stroke {
 fn paced(since: f64, cap: f64) -> f64 {
     let power = 1.0 - 1.0 / HIC_EXPONENT;
     let whole = (since / cap).floor();
-    whole * cap.powf(power) + (since - whole * cap).powf(power)
+    whole * cap.powf(power) + (since - whole * cap).max(0.0).powf(power)
 }

@@ -174,7 +174,8 @@ pub fn floors(network: &Network, duration: f64, limits: &[Limit]) -> Result<Floo
     let own = &assembly.nodes[body.index()];
     let mass = mass_of(&assembly, own.body);
     let gravity = network.effects().iter().find_map(|effect| effect.gravity()).unwrap_or(0.0);
-    let speed = own.start_velocity.unwrap_or(0.0) + gravity * own.fall;
+    // Of what is dropped that is the speed at touch, whether it falls or begins there.
+    let speed = own.start_velocity.unwrap_or(0.0);
     let none = || NoFloor::NotOne { bodies: 1, elements: 1 };
     let mut stroke = Stroke::on_fixed(mass, speed.abs(), gravity.max(0.0), travel.length);
     let stroke = stroke.as_mut().ok_or_else(none)?;

@@ -61,6 +61,29 @@ fn gravity_adds_itself_to_the_least_acceleration() {
 }
 
 #[test]
+fn what_is_dropped_is_stopped_from_its_speed_at_touch() {
+    let (height, travel) = (0.76, 0.06);
+    let stroke = |is_falling: bool, is_dropped: bool| {
+        let mut network = Network::new();
+        let start = Node::mass("parcel", 8.0);
+        let speed = (2.0 * G0 * height).sqrt();
+        let start = if is_dropped { start.dropped(height) } else { start.moving(speed) };
+        let parcel = network.add_node(start);
+        network.connect("pad", parcel, network.ground(), spring(1e5)).thickness = Some(travel);
+        network.add_effect(Gravity { acceleration: G0, start: GravityStart::Equilibrium });
+        if is_falling {
+            let at = Some("parcel".to_owned());
+            network.add_effect(Separation { element: "pad".to_owned(), at, restitution: 0.0 });
+        }
+        floors(&network, 1.0, &[]).unwrap().stroke
+    };
+    for (is_falling, is_dropped) in [(false, false), (false, true), (true, false), (true, true)] {
+        let least = value(&stroke(is_falling, is_dropped), Judged::PeakAcceleration).value;
+        near(least / G0, 1.0 + height / travel, 1e-12);
+    }
+}
+
+#[test]
 fn a_short_window_takes_something_off_the_least_hic() {
     let own = Stroke::on_fixed(5.0, 4.0, 0.0, 0.06).unwrap();
     let all = [1.0, 0.036, 0.015].map(|cap| value(&own, Judged::Hic { cap }));

@@ -143,7 +143,7 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
     };
     let lightest = own.lightest.map(|[volume, thickness, stress]| {
         let text = format!(
-            "{} at {} take the least for {limit} from {height}: {} for each kg",
+            "{} at {} take the least over {over} for {limit} from {height}: {} for each kg",
             no_less(thickness),
             in_kpa().text(stress, FEW),
             Unit::new("cm³", 1e-6).text(volume * drawn.cushion.platen.gravity, FEW),

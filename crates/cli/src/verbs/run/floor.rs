@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{Bound, Limit, MeasureReport, RunReport};
 use dashpot_design::floor::{Floor, Floors, NoFloor, TravelOf, floors};
-use dashpot_network::Network;
+use dashpot_network::{Network, parameters::WindowWish};
 use serde::Serialize;
 
 use super::{limits::stated, measures::measure_text, verdict::Line};
@@ -81,7 +81,10 @@ impl Told {
                     Some(deepest) if deepest > floors.travel.length => {
                         format!(", for it is pressed in by {}", quantity(deepest, "m", FEW))
                     }
-                    _ => ", for a later blow is harder".to_owned(),
+                    _ if measure.window_wish != Some(WindowWish::Run) => {
+                        ", for a later blow is harder".to_owned()
+                    }
+                    _ => String::new(),
                 };
                 format!("; here {} times that{why}", significant(ratio, FEW))
             });

@@ -1,4 +1,4 @@
-//! The two matrix worlds that the integrators run in, behind one private trait.
+//! The three matrix worlds that the integrators run in, behind one private trait.
 
 use diffsol::{
     DiffsolError, FaerSparseMat, FaerVec, LinearSolver, Matrix, NalgebraLU, NalgebraMat,

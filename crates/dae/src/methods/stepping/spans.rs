@@ -44,10 +44,12 @@ enum World {
 
 impl World {
     fn of(system: &System) -> Self {
-        match system.len() {
-            0..=ROWS => Self::Stack,
-            0..=DENSE_UP_TO => Self::Dense,
-            _ => Self::Sparse,
+        if system.len() <= ROWS {
+            Self::Stack
+        } else if system.len() <= DENSE_UP_TO {
+            Self::Dense
+        } else {
+            Self::Sparse
         }
     }
 }

@@ -53,34 +53,43 @@ pub(crate) fn diagonal_chain() -> Problem {
     }
 }
 
-/// 24 masses on 25 springs between two walls, swinging in their third mode.
+/// 24 masses on springs between two walls.
 pub(crate) fn vibrating_chain() -> Problem {
-    const MASSES: u32 = 24;
+    chain(24, "vibrating chain", "coupled unknowns in sparse matrices, no damping")
+}
+
+/// 4 masses on springs between two walls.
+pub(crate) fn short_chain() -> Problem {
+    chain(4, "short chain", "as many unknowns as lie on the stack, no damping")
+}
+
+/// Masses on springs between two walls, swinging in their third mode.
+fn chain(masses: u32, name: &'static str, difficulty: &'static str) -> Problem {
     let mut entries = Vec::new();
-    for k in 0..MASSES {
-        let velocity = at(MASSES + k);
+    for k in 0..masses {
+        let velocity = at(masses + k);
         entries.push((at(k), velocity, 1.0));
         entries.push((velocity, at(k), -2.0));
         if k > 0 {
             entries.push((velocity, at(k - 1), 1.0));
         }
-        if k + 1 < MASSES {
+        if k + 1 < masses {
             entries.push((velocity, at(k + 1), 1.0));
         }
     }
-    let phase = 3.0 * PI / f64::from(MASSES + 1);
+    let phase = 3.0 * PI / f64::from(masses + 1);
     let shape = move |k: u32| (phase * f64::from(k + 1)).sin();
     let omega = 2.0 * (0.5 * phase).sin();
     let solution = move |t: f64| {
         let (sin, cos) = (omega * t).sin_cos();
-        let positions = (0..MASSES).map(|k| shape(k) * cos);
-        positions.chain((0..MASSES).map(|k| -omega * shape(k) * sin)).collect()
+        let positions = (0..masses).map(|k| shape(k) * cos);
+        positions.chain((0..masses).map(|k| -omega * shape(k) * sin)).collect()
     };
-    let name = |k: u32| {
-        if k < MASSES { format!("position {k}") } else { format!("velocity {}", k - MASSES) }
+    let name_of = |k: u32| {
+        if k < masses { format!("position {k}") } else { format!("velocity {}", k - masses) }
     };
     let system = Parts {
-        unknowns: (0..2 * MASSES).map(|k| (name(k), UnknownKind::Differential)).collect(),
+        unknowns: (0..2 * masses).map(|k| (name_of(k), UnknownKind::Differential)).collect(),
         jacobian: &entries,
         input_matrix: &[],
         waveforms: Vec::new(),
@@ -88,8 +97,8 @@ pub(crate) fn vibrating_chain() -> Problem {
     }
     .build();
     Problem {
-        name: "vibrating chain",
-        difficulty: "coupled unknowns in sparse matrices, no damping",
+        name,
+        difficulty,
         system,
         t_end: 20.0 * TIME_SCALE,
         stiff: false,

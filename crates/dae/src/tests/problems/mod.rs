@@ -10,7 +10,7 @@ mod nonlinear;
 mod oscillators;
 
 pub(crate) use balances::{maxwell_relaxation, maxwell_under_steps};
-pub(crate) use chains::{diagonal_chain, stiff_pair, vibrating_chain};
+pub(crate) use chains::{diagonal_chain, short_chain, stiff_pair, vibrating_chain};
 pub(crate) use contact::hertz_contact;
 pub(crate) use driven::{driven_by_sine, driven_by_table, struck_by_pulse};
 pub(crate) use lattice::solitary_wave;
@@ -71,6 +71,7 @@ pub(crate) fn all() -> Vec<Problem> {
         stiff_pair(),
         diagonal_chain(),
         vibrating_chain(),
+        short_chain(),
         cubic_spring(),
         quadratic_dashpot(),
         root_dashpot(),

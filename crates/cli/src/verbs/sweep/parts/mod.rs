@@ -116,11 +116,8 @@ pub(super) fn written(
         let solved = sweep_in_parts(grid, pose, columns, options, &missing, take, &mut show);
         if is_interrupted() && matches!(solved, Err(CliError::Sweep(SweepError::BrokenOff))) {
             let kept = sizes.iter().map(|own| own.0.len()).sum();
-            return Err(CliError::Interrupted {
-                kept,
-                of: all.len(),
-                path: folder.path().to_owned(),
-            });
+            let path = folder.path().to_owned();
+            return Err(CliError::Interrupted { kept, of: all.len(), path });
         }
         solved?;
     }

@@ -1,9 +1,11 @@
 //! What is known of some points, and adds up.
 
+use std::collections::BTreeSet;
+
 use dashpot_analysis::{
     Judgement,
     partial::Cost,
-    sweep::{PartialOfSweep, SweepReport},
+    sweep::{PartialOfSweep, SweepReport, SweepWarning},
 };
 use serde::{Deserialize, Serialize};
 
@@ -23,7 +25,7 @@ pub(super) struct Summary {
     pub(super) extremes: Vec<Option<[f64; 2]>>,
     /// How many keep each limit.
     pub(super) limits: Vec<Kept>,
-    /// What runs are warned of: by the code of each warning what it says at the first point.
+    /// What runs are warned of: by the code of each warning at how many points, and what it says at the first one.
     pub(super) warnings: Vec<Counted>,
     /// How many instantiated points were solved in full as well, and the largest difference there.
     pub(super) checked: Option<(usize, f64)>,
@@ -80,11 +82,6 @@ impl Summary {
             let text = own.reason.clone();
             Counted { code: text.clone(), text, points: 1, first: start + own.point }
         });
-        let warnings = report.warnings.iter().map(|own| {
-            let (code, text) = (own.warning.code().to_owned(), own.warning.to_string());
-            let first = start + own.points.first().copied().unwrap_or_default();
-            Counted { code, text, points: own.points.len(), first }
-        });
         let extremes = |at: usize| {
             let finite = report.column(at).filter(|own| own.is_finite());
             finite.map(|own| [own, own]).reduce(widest)
@@ -113,7 +110,7 @@ impl Summary {
             ..Self::default()
         };
         failed.for_each(|one| count(&mut own.failed, one));
-        warnings.for_each(|one| count(&mut own.warnings, one));
+        warned(report, start).for_each(|one| count(&mut own.warnings, one));
         own
     }
 
@@ -147,6 +144,28 @@ impl Summary {
     pub(super) fn unsolved(&self) -> usize {
         self.failed.iter().map(|own| own.points).sum()
     }
+}
+
+/// What runs are warned of, by code: of several parts of a scene each point counts once.
+fn warned(report: &SweepReport, start: usize) -> impl Iterator<Item = Counted> {
+    let mut all: Vec<(BTreeSet<usize>, &SweepWarning)> = Vec::new();
+    for own in &report.warnings {
+        match all.iter_mut().find(|known| known.1.warning.code() == own.warning.code()) {
+            Some((points, first)) => {
+                if own.points.first() < points.first() {
+                    *first = own;
+                }
+                points.extend(&own.points);
+            }
+            None => all.push((own.points.iter().copied().collect(), own)),
+        }
+    }
+    all.into_iter().map(move |(points, own)| Counted {
+        code: own.warning.code().to_owned(),
+        text: own.warning.to_string(),
+        points: points.len(),
+        first: start + points.first().copied().unwrap_or_default(),
+    })
 }
 
 fn widest(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {

@@ -28,7 +28,7 @@ impl StackMatrix {
     }
 
     /// The row and the column of a number, counted down the columns.
-    fn place(&self, at: usize) -> (usize, usize) {
+    fn row_and_column(&self, at: usize) -> (usize, usize) {
         (at % self.rows, at / self.rows)
     }
 }
@@ -181,14 +181,15 @@ impl Matrix for StackMatrix {
 
     fn set_data_with_indices(&mut self, to: &Indices, from: &Indices, data: &StackVector) {
         for (&to, &from) in to.0.iter().zip(&from.0) {
-            let (row, column) = self.place(to);
+            let (row, column) = self.row_and_column(to);
             self.columns[column][row] = data[from];
         }
     }
 
     fn gather(&mut self, other: &Self, indices: &Indices) {
         for (at, &from) in indices.0.iter().enumerate() {
-            let ((row, column), (from_row, from_column)) = (self.place(at), other.place(from));
+            let ((row, column), (from_row, from_column)) =
+                (self.row_and_column(at), other.row_and_column(from));
             self.columns[column][row] = other.columns[from_column][from_row];
         }
     }

@@ -1,5 +1,5 @@
-//! Vectors and matrices of a few rows whose numbers lie on the stack, for `diffsol`'s integrators: small systems are
-//! stepped without allocation, by loops of constant length.
+//! Vectors of a few numbers that lie on the stack, and matrices of such columns, for `diffsol`'s integrators: small
+//! systems are stepped without allocation, by loops of constant length.
 //!
 //! Numbers behind the last row are of no meaning and are read by no result.
 

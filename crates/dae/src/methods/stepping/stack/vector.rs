@@ -137,8 +137,9 @@ impl Mul<Scale<f64>> for &StackVector {
 impl Div<Scale<f64>> for StackVector {
     type Output = Self;
 
-    fn div(self, divisor: Scale<f64>) -> Self {
-        self * Scale(divisor.value().recip())
+    fn div(mut self, divisor: Scale<f64>) -> Self {
+        self.mul_assign(Scale(divisor.value().recip()));
+        self
     }
 }
 
