@@ -294,7 +294,7 @@ mod tests {
 
     #[test]
     fn all_matrices_give_one_result() {
-        for problem in problems::all() {
+        for problem in problems::all().into_iter().chain([problems::short_chain()]) {
             let mut found = vec![
                 difference::<Bdf>(&problem),
                 difference::<TrBdf2>(&problem),

@@ -71,7 +71,6 @@ pub(crate) fn all() -> Vec<Problem> {
         stiff_pair(),
         diagonal_chain(),
         vibrating_chain(),
-        short_chain(),
         cubic_spring(),
         quadratic_dashpot(),
         root_dashpot(),
