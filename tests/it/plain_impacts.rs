@@ -6,7 +6,7 @@ use dashpot::{
     network::{
         Network, Node,
         effects::{Gravity, GravityStart, Separation},
-        elements::{Dashpot, Foam, StiffeningSpring},
+        elements::{Dashpot, Foam, Spring, StiffeningSpring},
         part,
     },
     rheology::Tree,
@@ -150,8 +150,40 @@ fn what_is_not_plain_is_solved_as_before() {
     assert!(!is_plain(&drop, &SolveSettings::lasting(3.0)));
     assert!(!is_plain(&drop, &SolveSettings::lasting(0.415)));
     assert!(!is_plain(&drop, &settings.clone().by_name("bdf").unwrap()));
-    // Without a dashpot at its face the pad snaps back.
+    // What takes up nothing has no energy to be accurate of.
     assert!(!is_plain(&on_foam(None, 0.0), &SolveSettings::lasting(0.1)));
+}
+
+/// A head on a pad over a panel on a mount: a Maxwell and a Kelvin element in series, beside a spring that stiffens.
+/// Springs alone hold the face of the pad.
+fn on_a_panel() -> Network {
+    let spring = |stiffness: f64| part(Spring { stiffness });
+    let kelvin =
+        |stiffness, damping| Tree::parallel([spring(stiffness), part(Dashpot { damping })]);
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
+    let panel = network.add_node(Node::mass("panel", 100.0));
+    let soft = Tree::series([
+        spring(2e7),
+        part(Dashpot { damping: 4500.0 }),
+        kelvin(1.468_860_165e7, 3916.960_439),
+    ]);
+    let pad = Tree::parallel([soft, part(StiffeningSpring { stiffness: 3e5, limit: 0.02 })]);
+    network.connect("pad", head, panel, pad).thickness = Some(0.02);
+    network.connect("mount", panel, network.ground(), kelvin(5e7, 1e4));
+    network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
+    network
+}
+
+#[test]
+fn a_face_that_springs_alone_hold_is_followed_by_their_balance() {
+    let (network, settings) = (on_a_panel(), SolveSettings::lasting(0.02));
+    let own = run(&network, &settings);
+    assert!(is_plain(&own));
+    for method in ["esdirk34", "dop853"] {
+        let fine = SolveSettings { rtol: Some(1e-9), ..settings.clone() };
+        assert_alike(&own, &run(&network, &fine.by_name(method).unwrap()));
+    }
 }
 
 #[test]

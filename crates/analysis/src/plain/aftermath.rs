@@ -45,29 +45,28 @@ impl Flight {
     }
 }
 
-/// Follows a pad from the release at `from` for the dimensionless time `left`, at a tolerance. `None` where it
-/// cannot be followed, or meets again what has left it.
+/// Follows a pad that is `released` from some unknowns on for the dimensionless time `left`, at a tolerance. `None`
+/// where it cannot be followed, or meets again what has left it.
 pub(super) fn follow<const N: usize>(
-    (parametric, numbers): (&ParametricSystem, &[f64]),
+    (released, numbers): (&ParametricSystem, &[f64]),
     assembly: &Assembly,
     (course, from): (&Course<N>, &[f64; N]),
     flight: Flight,
     (left, rtol, energy): (f64, f64, f64),
 ) -> Option<Aftermath<N>> {
-    let released = parametric.released()?;
     let mut instance: Instance<N> = released.instance()?;
     if !released.fill(numbers, &mut instance) {
         return None;
     }
     let parts = released.parts(&instance);
     let masses = released.masses_and_speeds(numbers, &instance);
-    let stepped = Stepped { instance: &instance, unknowns: parametric.unknowns(), end: left };
+    let stepped = Stepped { instance: &instance, unknowns: released.unknowns(), end: left };
     let is_over = |nodes: &Nodes<N>| {
         let last = &nodes.values[nodes.values.len() - 1];
         masses.is_empty() && stored_at_most(assembly, &parts, last) <= LITTLE * rtol * energy
     };
     let track = stepped.settle(from, rtol, &is_over)?;
-    let (face, time) = (released.speed_of_face(&instance), parametric.time_scale());
+    let (face, time) = (released.speed_of_face(&instance), released.time_scale());
     let (mut way, mut at) = (0.0, 0.0);
     for step in &track.steps {
         let panel = step.panel(&|z| dot(&face, z));

@@ -55,7 +55,7 @@ pub(crate) fn solve(
 ) -> Option<Result<RunReport, RunError>> {
     let started = Instant::now();
     let scene = Scene::of(network, assembly, settings)?;
-    let mut told = match scene.parametric.states() {
+    let mut told = match scene.released.states() {
         0..=4 => solved::<4>(&scene),
         5..=6 => solved::<6>(&scene),
         _ => solved::<MOST_STATES>(&scene),
@@ -108,7 +108,7 @@ fn solved<const N: usize>(scene: &Scene<'_>) -> Option<Told> {
     let release = scene.fall + course.release * time;
     let after_impact = balance.ledger(assembly, release);
     let after = aftermath::follow(
-        (parametric, numbers),
+        (&scene.released, numbers),
         assembly,
         (&course, &left),
         flight,

@@ -28,6 +28,8 @@ pub(super) struct Scene<'s> {
     pub(super) effects: Vec<&'static str>,
     pub(super) settings: &'s SolveSettings,
     pub(super) parametric: ParametricSystem,
+    /// The pad once it has let go what struck it.
+    pub(super) released: ParametricSystem,
     pub(super) numbers: Vec<f64>,
     pub(super) selected: Vec<Selected>,
     pub(super) shown: Vec<Shown>,
@@ -62,10 +64,10 @@ impl<'s> Scene<'s> {
             return None;
         };
         let (parametric, numbers) = ParametricSystem::with_numbers(network, settings.duration)?;
-        let is_covered = !parametric.is_linear() && parametric.opens();
-        if !is_covered || parametric.states() > MOST_STATES || assembly.drives.len() > 1 {
-            return None;
-        }
+        let are_all_told = assembly.primitives.len() == parametric.primitives();
+        let is_covered = !parametric.is_linear() && are_all_told && assembly.drives.len() <= 1;
+        let released =
+            parametric.released().filter(|own| is_covered && own.states() <= MOST_STATES)?;
         let struck = parametric.element();
         let is_whole = |(at, own): (usize, &ConnectionOutputs)| {
             let is_one = own.segments.iter().all(|part| {
@@ -103,6 +105,7 @@ impl<'s> Scene<'s> {
             effects,
             settings,
             parametric,
+            released,
             numbers,
             selected,
             shown,

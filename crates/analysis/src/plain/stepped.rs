@@ -25,7 +25,7 @@ const OVERSHOOT: f64 = 0.02;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
 
-/// The unknowns, and the forces of the laws in their slots, at the nodes of a step.
+/// The unknowns, and what stands in their slots, at the nodes of a step.
 #[derive(Debug, Clone)]
 pub(crate) struct Nodes<const N: usize> {
     start: f64,
@@ -34,12 +34,12 @@ pub(crate) struct Nodes<const N: usize> {
 }
 
 impl<const N: usize> Nodes<N> {
-    fn of(step: &Step<N>, (start, end): (f64, f64), curves: &[CurveRow<N>]) -> Self {
+    fn of(step: &Step<N>, (start, end): (f64, f64), instance: &Instance<N>) -> Self {
         let nodes = Interpolation::of_degree(DEGREE);
         let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
         let mut values = [[0.0; N]; DEGREE + 1];
         for (at, own) in values.iter_mut().enumerate() {
-            *own = filled(curves, &step.at(place(at)));
+            *own = instance.completed(&step.at(place(at)));
         }
         Self { start, end, values }
     }
@@ -147,7 +147,7 @@ impl<const N: usize> Stepped<'_, N> {
             if error <= 1.0 {
                 step.fit(&mut slopes);
                 track.work.rhs_calls += 1 + FURTHER.len();
-                let own = Nodes::of(&step, (time, time + length), curves);
+                let own = Nodes::of(&step, (time, time + length), self.instance);
                 seen = Seen::of(&own, curves, &looks);
                 let force = &seen.coefficients[0];
                 strongest = strongest.max(force[0].abs());
@@ -198,7 +198,6 @@ impl<const N: usize> Stepped<'_, N> {
         rtol: f64,
         is_over: &dyn Fn(&Nodes<N>) -> bool,
     ) -> Option<Track<N>> {
-        let curves = &self.instance.curves;
         let mut slopes = self.slopes();
         let mut step = Step::from(*from, &mut slopes);
         let mut most = from.map(f64::abs);
@@ -222,7 +221,7 @@ impl<const N: usize> Stepped<'_, N> {
             track.work.rhs_calls += 1 + FURTHER.len();
             track.work.accepted += 1;
             let end = if length < self.end - time { time + length } else { self.end };
-            let nodes = Nodes::of(&step, (time, end), curves);
+            let nodes = Nodes::of(&step, (time, end), self.instance);
             let is_last = is_over(&nodes);
             track.steps.push(nodes);
             if is_last {
@@ -238,8 +237,8 @@ impl<const N: usize> Stepped<'_, N> {
 
     /// How fast the unknowns change.
     fn slopes(&self) -> impl FnMut(&[f64; N]) -> [f64; N] {
-        let Instance { matrix, curves, .. } = self.instance;
-        move |z| apply(matrix, &filled(curves, z))
+        let instance = self.instance;
+        move |z| apply(&instance.matrix, &instance.completed(z))
     }
 
     /// What errors of an unknown are counted in.
@@ -268,17 +267,6 @@ fn factor(error: f64) -> f64 {
     } else {
         GROWTH.0
     }
-}
-
-/// The unknowns, with the forces of the laws in their slots.
-#[inline]
-fn filled<const N: usize>(curves: &[CurveRow<N>], z: &[f64; N]) -> [f64; N] {
-    let mut all = *z;
-    for curve in curves {
-        let force = curve.law.force(dot(&curve.deformation, z), dot(&curve.rate, z));
-        all[curve.slot] = force;
-    }
-    all
 }
 
 /// What a step shows.

@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use dashpot_numerics::Accumulator;
 use dashpot_numerics::chebyshev::Interpolation;
+use nalgebra::{DMatrix, DVectorView};
 
 use super::{
     Complex,
     block::{Block, exponential_of},
     coordinates::SpanCoordinates,
     modes::Modes,
-    tables::{COUNT, DEGREE, at_most},
+    tables::{Bounds, COUNT, DEGREE, at_most},
 };
 
 /// The modal form of an output: `Σ_j Re (r_j c_j(t))`.
@@ -100,6 +101,20 @@ impl ModalRow {
         at_most(missed, size)
     }
 
+    /// The same where the errors of the blocks are bounded in parts of sizes.
+    pub(super) fn missed_within(&self, modes: &Modes, bounds: &[Bounds], sizes: &[f64]) -> f64 {
+        let parts = modes.blocks.iter().zip(bounds).filter(|(block, _)| self.has_part(block));
+        let missed = |(block, bounds): (&Block, &Bounds)| match bounds {
+            Bounds::None => 0.0,
+            Bounds::Single(weight) => weight * self.sizes[block.start] * sizes[block.start],
+            Bounds::Cluster { largest, missed } => {
+                let (row, own) = (self.sizes_in(block.range()), &sizes[block.range()]);
+                at_most(product(row, missed, own), product(row, largest, own))
+            }
+        };
+        parts.map(missed).sum()
+    }
+
     /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are
     /// given.
     pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> [f64; COUNT] {
@@ -162,6 +177,14 @@ impl ModalRow {
     pub(super) fn sizes_in(&self, range: Range<usize>) -> &[f64] {
         &self.sizes[range]
     }
+}
+
+/// `row · matrix · sizes`.
+fn product(row: &[f64], matrix: &DMatrix<f64>, sizes: &[f64]) -> f64 {
+    let columns = matrix.column_iter().zip(sizes).filter(|(_, size)| **size != 0.0);
+    let column =
+        |own: DVectorView<'_, f64>| row.iter().zip(own.iter()).map(|(a, b)| a * b).sum::<f64>();
+    columns.map(|(own, size)| column(own) * size).sum()
 }
 
 fn coefficients(values: &[f64; COUNT]) -> [f64; COUNT] {

@@ -44,15 +44,42 @@ pub(super) struct Piece {
 
 /// What is known about a piecewise polynomial as a whole.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Quality {
+pub(super) struct Tally {
     /// Largest sum of the sizes of all terms: rounding is relative to it.
     pub(super) size: f64,
     /// Bound of the error.
     pub(super) error: f64,
+    /// The same of the panels of a span, but for what the coordinates cause.
+    worst: f64,
+}
+
+impl Tally {
+    /// Takes in a panel at whose start the terms are of this size, which may be missed by so much, and at whose end
+    /// rounding shifts the output by its rate.
+    pub(super) fn add(&mut self, size: f64, missed: f64, (end, rate): (f64, f64)) {
+        self.size = self.size.max(size);
+        let missed = missed + TIMING * end * rate;
+        self.worst = if missed.is_finite() { self.worst.max(missed) } else { f64::INFINITY };
+    }
+
+    /// Ends a span at a time, where the coordinates are of these sizes and have caused an error.
+    pub(super) fn close(&mut self, row: &ModalRow, inherited: f64, (end, last): (f64, &[f64])) {
+        self.size = self.size.max(row.size_at(last));
+        let worst = self.worst.max(TIMING * end * row.rate_at(last));
+        let error = inherited + worst;
+        // Also where it is not a number: then nothing is known.
+        self.error = if error.is_finite() { self.error.max(error) } else { f64::INFINITY };
+        self.worst = 0.0;
+    }
+}
+
+/// What a panel may miss of an output whose terms are of the size `local` at its start, and of the size `scale` at most.
+pub(super) fn tolerance(local: f64, scale: f64) -> f64 {
+    2.0 * f64::EPSILON * (local + FLOOR * scale)
 }
 
 /// Appends the output on `[start, start + length]`, a span whose coordinates are given, and
-/// updates the `quality`.
+/// updates the `tally`.
 ///
 /// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
 /// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
@@ -64,17 +91,14 @@ pub(super) fn interpolate(
     span: &SpanCoordinates,
     (start, length): (f64, f64),
     scale: f64,
-    (quality, budget): (&mut Quality, &Budget),
+    (tally, budget): (&mut Tally, &Budget),
     pieces: &mut Vec<Piece>,
 ) {
-    let inherited = row.error(modes, span);
-    let mut worst = 0.0_f64;
     let mut walk = Walk::new(row, (modes, tables), &span.start, length);
     let powers: u64 = modes.blocks.iter().map(|block| block.cost(length)).sum();
     loop {
         let local = row.size_at(&walk.sizes);
-        quality.size = quality.size.max(local);
-        let tolerance = 2.0 * f64::EPSILON * (local + FLOOR * scale);
+        let tolerance = tolerance(local, scale);
         let at = walk.at;
         budget.charge(powers);
         let is_over = budget.charge_step(modes.len());
@@ -84,9 +108,7 @@ pub(super) fn interpolate(
             (NARROWEST * length).max(4.0 * f64::EPSILON * at)
         };
         let width = walk.widen(tolerance, most);
-        let shifted = TIMING * (start + at + width) * row.rate_at(&walk.sizes);
-        let missed = walk.missed + shifted;
-        worst = if missed.is_finite() { worst.max(missed) } else { f64::INFINITY };
+        tally.add(local, walk.missed, (start + at + width, row.rate_at(&walk.sizes)));
         let coefficients = trimmed(&walk.fit(), 0.1 * tolerance);
         walk.go_on();
         pieces.push(Piece { start: start + at, end: start + walk.at, coefficients });
@@ -96,15 +118,11 @@ pub(super) fn interpolate(
     }
     // The sizes at the starts of all panels are known, and here that at the very end.
     let last = sizes_of(&coordinates_at(modes, &span.start, length));
-    quality.size = quality.size.max(row.size_at(&last));
-    worst = worst.max(TIMING * (start + length) * row.rate_at(&last));
-    let error = inherited + worst;
-    // Also where it is not a number: then nothing is known.
-    quality.error = if error.is_finite() { quality.error.max(error) } else { f64::INFINITY };
+    tally.close(row, row.error(modes, span), (start + length, &last));
 }
 
 /// The coefficients without the last ones, as long as their sum stays below `negligible`.
-fn trimmed(coefficients: &[f64], negligible: f64) -> Coefficients {
+pub(super) fn trimmed(coefficients: &[f64], negligible: f64) -> Coefficients {
     let (mut dropped, mut count) = (0.0, coefficients.len());
     while count > 1 {
         dropped += coefficients[count - 1].abs();

@@ -4,13 +4,15 @@ use std::sync::{Arc, OnceLock};
 
 use super::{
     Augmented, Complex,
+    augmented::Span,
     block::Block,
+    common::{Common, MOST_MODES, Stations, Told},
     coordinates::{SpanCoordinates, follow},
     decomposition::{Form, Shared, decompose},
     decoupling::CAUTIONS,
     modal_row::{ModalRow, coordinates_at},
     modes::Modes,
-    panels::{Piece, Quality, interpolate},
+    panels::{Piece, Tally, interpolate},
     propagator::{Grid, advance, drifts, propagate},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
@@ -40,6 +42,8 @@ pub(crate) struct Solution {
     time_scale: f64,
     budget: Budget,
     modal: OnceLock<Arc<Modal>>,
+    /// What outputs share, where there is anything.
+    common: OnceLock<Option<Arc<Common>>>,
 }
 
 #[derive(Debug)]
@@ -77,7 +81,8 @@ impl Solution {
     /// The solution of the augmented system over a run that ends at `t_end` \[s\], within a budget:
     /// where that ends, signals have no bound.
     pub(crate) fn new(system: Augmented, (t_end, time_scale): (f64, f64), budget: Budget) -> Self {
-        Self { system, t_end, time_scale, budget, modal: OnceLock::new() }
+        let (modal, common) = (OnceLock::new(), OnceLock::new());
+        Self { system, t_end, time_scale, budget, modal, common }
     }
 
     /// The same solution on a run that ends earlier, at `t_end` \[s\].
@@ -88,7 +93,49 @@ impl Solution {
             last.end = end;
         }
         self.t_end = t_end;
+        self.common = OnceLock::new();
         self
+    }
+
+    /// The same solution, each of whose outputs has panels of its own, as suits few of them.
+    pub(crate) fn apart(self) -> Self {
+        Self { common: OnceLock::from(None), ..self }
+    }
+
+    /// Panels that are good for all outputs, where they share them.
+    fn shared_by_all(&self, system: &System) -> Option<Arc<Common>> {
+        let Modal { form, spans } = self.modal();
+        let modes = &form.modes;
+        if modes.len() > MOST_MODES {
+            return None;
+        }
+        let row = |output| self.row(&self.system.form(system.outputs.at(output)));
+        let rows: Vec<Told> = (0..system.outputs.len()).map(row).collect();
+        let stations = |(span, own): (&Span, &SpanCoordinates)| {
+            Stations::of((modes, &self.budget), &own.start, span.length(), &rows)
+        };
+        let spans = self.system.spans.iter().zip(spans).map(stations).collect::<Option<_>>()?;
+        Some(Arc::new(Common { rows, spans }))
+    }
+
+    /// The modal form of a linear form over `z`.
+    fn row(&self, form: &[(usize, f64)]) -> Told {
+        let Modal { form: modal, spans } = self.modal();
+        let row = ModalRow::new(&modal.modes, form);
+        let lengths = self.system.spans.iter().zip(spans);
+        let scale = lengths
+            .map(|(span, coordinates)| row.size(&modal.modes, coordinates, span.length()))
+            .filter(|size| size.is_finite())
+            .fold(0.0, f64::max);
+        (row, scale)
+    }
+
+    /// Drops the tables that panels were made of, unless other solutions share them.
+    pub(crate) fn clear(&self) {
+        let own = self.modal.get().filter(|modal| Arc::strong_count(&modal.form) == 1);
+        if let Some(modal) = own {
+            modal.form.tables.clear();
+        }
     }
 
     /// The same solution with its modes found, so that its copies need not find them again.
@@ -231,28 +278,33 @@ impl Solution {
         values
     }
 
-    /// A form over `z` in SI units, of which the dimensionless value 1 is `unit`.
-    fn told(&self, form: &[(usize, f64)], unit: f64) -> Signal {
+    /// An output in SI units, of which the dimensionless value 1 is `unit`.
+    fn told(&self, told: &Told, common: Option<&Common>, unit: f64) -> Signal {
         let Modal { form: modal, spans } = self.modal();
         let Form { modes, tables } = modal.as_ref();
-        let row = ModalRow::new(modes, form);
-        let lengths = || self.system.spans.iter().zip(spans);
-        let scale = lengths()
-            .map(|(span, coordinates)| row.size(modes, coordinates, span.length()))
-            .filter(|size| size.is_finite())
-            .fold(0.0, f64::max);
-        let (mut quality, mut pieces) = (Quality::default(), Vec::new());
-        for (span, coordinates) in lengths() {
-            let place = (span.start, span.length());
-            let known = (&mut quality, &self.budget);
-            interpolate(&row, (modes, tables), coordinates, place, scale, known, &mut pieces);
+        let (row, scale) = told;
+        let (mut tally, mut pieces) = (Tally::default(), Vec::new());
+        for (at, (span, coordinates)) in self.system.spans.iter().zip(spans).enumerate() {
+            let shared = common.and_then(|own| {
+                let place = (coordinates, span.start);
+                own.spans.get(at)?.interpolate(told, modes, place, &mut tally, &mut pieces)
+            });
+            if shared.is_none() {
+                let place = (span.start, span.length());
+                let known = (&mut tally, &self.budget);
+                interpolate(row, (modes, tables), coordinates, place, *scale, known, &mut pieces);
+            }
         }
-        let noise = NOISE * f64::EPSILON * quality.size * unit.abs();
-        let largest = quality.size * unit.abs();
+        let noise = NOISE * f64::EPSILON * tally.size * unit.abs();
+        let largest = tally.size * unit.abs();
         let is_small = largest > 0.0 && largest < f64::MIN_POSITIVE / f64::EPSILON;
-        let error = quality.error * unit.abs() + if is_small { noise + SMALLEST } else { noise };
+        let error = tally.error * unit.abs() + if is_small { noise + SMALLEST } else { noise };
         let panels = pieces.into_iter().map(|piece| self.panel(piece, unit)).collect();
         Signal::new(panels, error.is_finite().then_some(error), noise)
+    }
+
+    fn common(&self, system: &System) -> Option<&Common> {
+        self.common.get_or_init(|| self.shared_by_all(system)).as_deref()
     }
 
     fn panel(&self, piece: Piece, scale: f64) -> Panel {
@@ -267,8 +319,12 @@ impl Solution {
 
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        let output = system.outputs.at(output);
-        self.told(&self.system.form(output), output.scale)
+        let common = self.common(system);
+        let own = system.outputs.at(output);
+        match common.and_then(|common| common.rows.get(output)) {
+            Some(told) => self.told(told, common, own.scale),
+            None => self.told(&self.row(&self.system.form(own)), common, own.scale),
+        }
     }
 
     fn has_rates(&self) -> bool {
@@ -278,7 +334,7 @@ impl Dense for Solution {
     fn rate(&self, system: &System, output: usize) -> Signal {
         let output = system.outputs.at(output);
         let form = self.system.rate(&self.system.form(output));
-        self.told(&form, output.scale / self.time_scale)
+        self.told(&self.row(&form), self.common(system), output.scale / self.time_scale)
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
@@ -293,10 +349,9 @@ impl Dense for Solution {
     }
 
     fn forget(&self) {
-        let own = self.modal.get().filter(|modal| Arc::strong_count(&modal.form) == 1);
-        if let Some(modal) = own {
-            modal.form.tables.clear();
-        }
+        // Nothing that outputs would share is made any more.
+        let _ = self.common.set(None);
+        self.clear();
     }
 
     fn share(&mut self, shared: &mut Shared) {

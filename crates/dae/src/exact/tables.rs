@@ -65,7 +65,7 @@ pub(super) struct Shape {
 impl Shape {
     pub(super) const ZERO: Self = Self { re: [0.0; COUNT], im: [0.0; COUNT] };
 
-    fn of(values: &[Complex; COUNT]) -> Self {
+    pub(super) fn of(values: &[Complex; COUNT]) -> Self {
         let mut shape = Self::ZERO;
         let interpolation = Interpolation::of_degree(DEGREE);
         interpolation.coefficients(&values.map(|value| value.re), &mut shape.re);
@@ -150,7 +150,7 @@ pub(super) fn is_told(block: &Block) -> bool {
 }
 
 impl Bounds {
-    fn of(block: &Block, width: f64) -> Self {
+    pub(super) fn of(block: &Block, width: f64) -> Self {
         if !is_told(block) {
             return Self::None;
         }

@@ -193,7 +193,7 @@ fn search(
     guards: &[Guard],
     until: f64,
 ) -> (Vec<Event>, Option<Stop>) {
-    let part = solution.clone().until(until);
+    let part = solution.clone().until(until).apart();
     let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
     scan(guards, &guards.iter().map(signal).collect::<Vec<_>>())
 }
@@ -280,9 +280,8 @@ impl Method for Exact {
             return Err(SolveError::Cancelled { time: t_end });
         }
         let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
-        let dense = Box::new(solution);
         // What was made on the way to the end.
-        crate::Dense::forget(dense.as_ref());
+        solution.clear();
         Ok(Trajectory {
             method: Self::KIND,
             outcome,
@@ -291,7 +290,7 @@ impl Method for Exact {
             first_phases: Vec::new(),
             switches: Vec::new(),
             statistics,
-            dense,
+            dense: Box::new(solution),
         })
     }
 }

@@ -118,10 +118,13 @@ impl Chain {
 
     /// What is told of one interval.
     fn told(&self, interval: &Solved, signal: impl Fn(&Solved) -> Signal) -> Signal {
-        let signal = signal(interval);
-        if self.intervals.len() > MANY {
-            interval.dense.forget();
+        let is_kept = self.intervals.len() <= MANY;
+        if is_kept {
+            return signal(interval);
         }
+        interval.dense.forget();
+        let signal = signal(interval);
+        interval.dense.forget();
         signal
     }
 

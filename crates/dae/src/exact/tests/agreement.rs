@@ -10,7 +10,7 @@ use crate::{
         coordinates::follow,
         modal_row::ModalRow,
         modes::Modes,
-        panels::{Quality, interpolate},
+        panels::{Tally, interpolate},
         propagator::Grid,
         tables::Tables,
     },
@@ -104,14 +104,14 @@ fn without_eigenvalues_the_values_are_still_right() {
     let modes = Modes::undivided(&augmented);
     let spans = follow(&augmented, &modes);
     let row = ModalRow::new(&modes, &augmented.form(system.outputs.at(0)));
-    let (mut quality, mut pieces) = (Quality::default(), Vec::new());
+    let (mut tally, mut pieces) = (Tally::default(), Vec::new());
     interpolate(
         &row,
         (&modes, &Tables::default()),
         &spans[0],
         (0.0, 8.0),
         0.2,
-        (&mut quality, &Budget::default()),
+        (&mut tally, &Budget::default()),
         &mut pieces,
     );
     let w = 24.9375_f64.sqrt();
@@ -123,5 +123,5 @@ fn without_eigenvalues_the_values_are_still_right() {
             assert!(off.abs() < 1e-13, "{t}: {off:e}");
         }
     }
-    assert!(!quality.error.is_finite(), "no bound is claimed");
+    assert!(!tally.error.is_finite(), "no bound is claimed");
 }

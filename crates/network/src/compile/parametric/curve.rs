@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use dashpot_numerics::small::dot;
+
+use super::Instance;
 use crate::{
     compile::expand::Primitive,
     elements::{ELEMENTS, Element, Law},
@@ -33,6 +36,52 @@ pub struct CurveRow<const N: usize> {
     pub rate: [f64; N],
     /// The numbers that the law was made of.
     pub(super) numbers: Vec<f64>,
+}
+
+/// A face without mass that springs alone hold, in the system of one network: its speed \[m/s\] stands in a slot.
+///
+/// Their forces are in balance, so that its speed is the mean of those of their other ends, each weighed by the
+/// stiffness of its spring.
+#[derive(Debug, Clone)]
+pub(super) struct Sprung<const N: usize> {
+    pub(super) slot: usize,
+    /// The sum of the constant stiffnesses \[N/m\].
+    pub(super) stiffness: f64,
+    /// Those speeds times these, over the unknowns and slots.
+    pub(super) pull: [f64; N],
+    /// The slot of each other law at the face, and the speed of its other end.
+    pub(super) curves: Vec<(usize, [f64; N])>,
+}
+
+impl<const N: usize> Instance<N> {
+    /// The unknowns, with what follows from them in the slots: the forces of the laws that are not linear, and the
+    /// speed of a face that springs alone hold.
+    #[inline]
+    pub fn completed(&self, z: &[f64; N]) -> [f64; N] {
+        let mut all = *z;
+        for curve in &self.curves {
+            let force = curve.law.force(dot(&curve.deformation, z), dot(&curve.rate, z));
+            all[curve.slot] = force;
+        }
+        if let Some(own) = &self.sprung {
+            all[own.slot] = own.speed(&self.curves, &all);
+        }
+        all
+    }
+}
+
+impl<const N: usize> Sprung<N> {
+    /// The speed of the face, where the forces of the laws stand in their slots.
+    fn speed(&self, curves: &[CurveRow<N>], z: &[f64; N]) -> f64 {
+        let (mut stiffness, mut pull) = (self.stiffness, dot(&self.pull, z));
+        for (slot, speed) in &self.curves {
+            let Some(curve) = curves.iter().find(|own| own.slot == *slot) else { continue };
+            let own = curve.law.tangent(dot(&curve.deformation, z), 0.0).stiffness;
+            stiffness += own;
+            pull += own * dot(speed, z);
+        }
+        pull / stiffness
+    }
 }
 
 impl Curve {

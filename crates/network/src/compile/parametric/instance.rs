@@ -2,7 +2,10 @@
 
 use dashpot_numerics::small::Square;
 
-use super::{Eliminated, ParametricSystem, PartKind, curve::CurveRow};
+use super::{
+    Eliminated, ParametricSystem, PartKind,
+    curve::{CurveRow, Sprung},
+};
 
 /// The system of one network: `ż = A z` in dimensionless time, padded with zeros to `N` unknowns. Behind the
 /// unknowns stands the number 1 where constant forces act, and the force of each law that is not linear.
@@ -18,6 +21,8 @@ pub struct Instance<const N: usize> {
     pub deformation: [f64; N],
     /// The laws that are not linear.
     pub curves: Vec<CurveRow<N>>,
+    /// A face that springs alone hold.
+    pub(super) sprung: Option<Sprung<N>>,
     net: Vec<[f64; N]>,
     pub(super) velocity: Vec<[f64; N]>,
     conductance: Vec<f64>,
@@ -41,6 +46,7 @@ impl ParametricSystem {
             force: [0.0; N],
             deformation: self.in_metres(&self.deformation),
             curves: Vec::with_capacity(self.curves.len()),
+            sprung: None,
             net: vec![[0.0; N]; self.bodies],
             velocity: vec![[0.0; N]; self.bodies],
             conductance: vec![0.0; self.bodies * self.bodies],
@@ -57,6 +63,9 @@ impl ParametricSystem {
     pub fn fill<const N: usize>(&self, numbers: &[f64], instance: &mut Instance<N>) -> bool {
         self.add_forces(numbers, instance);
         self.solve_dashpots(instance);
+        if let Some(slot) = self.sprung {
+            instance.velocity[self.face][slot] = 1.0;
+        }
         self.add_dashpots(numbers, instance);
         for own in &self.placed {
             let mut row = instance.velocity[own.body];
@@ -90,7 +99,32 @@ impl ParametricSystem {
         for ((own, value), scale) in instance.force.iter_mut().zip(force).zip(&self.scales) {
             *own = value * scale;
         }
+        instance.sprung = self.sprung.map(|slot| self.sprung_row(slot, numbers, instance));
         self.add_curves(numbers, instance)
+    }
+
+    /// What the speed of a face follows from that springs alone hold, and that is found in a slot.
+    fn sprung_row<const N: usize>(
+        &self,
+        slot: usize,
+        numbers: &[f64],
+        instance: &Instance<N>,
+    ) -> Sprung<N> {
+        let mut own = Sprung { slot, stiffness: 0.0, pull: [0.0; N], curves: Vec::new() };
+        for part in self.parts.iter().filter(|part| part.ends.contains(&self.face)) {
+            let [a, b] = part.ends;
+            let other = if a == self.face { b } else { a };
+            let mut speed = instance.velocity[other];
+            speed.iter_mut().zip(&self.scales).for_each(|(own, scale)| *own *= scale);
+            match part.kind {
+                PartKind::Curve(slot) => own.curves.push((slot, speed)),
+                _ => {
+                    own.stiffness += numbers[part.number];
+                    add(&mut own.pull, numbers[part.number], &speed);
+                }
+            }
+        }
+        own
     }
 
     /// Whether no law depends on a rate to which a law contributes, so that forces follow one from the other.

@@ -5,8 +5,8 @@
 //! is known: star–mesh with positive numbers only, as in [`mesh`](super::mesh), but in single digits.
 //!
 //! What is not linear in the unknowns stands behind them in slots of their own: one holds the number 1 where
-//! constant forces act, and each law that is not linear has one for its force. So everything else of the
-//! system stays linear.
+//! constant forces act, each law that is not linear has one for its force, and a face that springs alone hold one for
+//! its speed. So everything else of the system stays linear.
 
 mod assembled;
 mod curve;
@@ -36,7 +36,7 @@ use crate::{Network, NodeId};
 #[derive(Debug, Clone)]
 struct Part {
     ends: [usize; 2],
-    /// Its place among the primitives of the network.
+    /// Its place among the primitives that an assembly tells of.
     primitive: usize,
     /// Where its constant, or the first number of its law, stands among the numbers.
     number: usize,
@@ -96,6 +96,7 @@ struct Weighed {
 pub struct ParametricSystem {
     fingerprint: Fingerprint,
     bodies: usize,
+    primitives: usize,
     parts: Vec<Part>,
     /// The laws that are not linear, in the order of their slots.
     curves: Vec<Curve>,
@@ -108,6 +109,8 @@ pub struct ParametricSystem {
     unknowns: usize,
     /// The slot of the number 1, where constant forces act.
     one: Option<usize>,
+    /// The slot of the speed of the face, where springs alone hold it.
+    sprung: Option<usize>,
     /// Whether what strikes is let go for good where the force falls to zero.
     opens: bool,
     time: f64,
@@ -191,6 +194,12 @@ impl ParametricSystem {
     /// Position among the connections of the element that the impactor touches.
     pub fn element(&self) -> usize {
         self.element
+    }
+
+    /// How many primitives there are. An [`Assembly`](crate::Assembly) that tells of as many has them in the order of
+    /// [`PartRow::primitive`].
+    pub fn primitives(&self) -> usize {
+        self.primitives
     }
 
     /// The impactor.

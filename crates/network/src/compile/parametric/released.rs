@@ -1,11 +1,11 @@
 //! What a form does once what strikes it has been let go, and the rows of its parts.
 
-use super::{Instance, ParametricSystem, reading::order};
+use super::{Curve, Instance, ParametricSystem, reading::order};
 
 /// A part of a form over the unknowns and slots of one network.
 #[derive(Debug, Clone)]
 pub struct PartRow<const N: usize> {
-    /// Its place among the primitives of the network.
+    /// Its place among the primitives of an assembly that tells of [all](ParametricSystem::primitives).
     pub primitive: usize,
     /// Its deformation \[m\].
     pub deformation: [f64; N],
@@ -15,17 +15,26 @@ pub struct PartRow<const N: usize> {
 
 impl ParametricSystem {
     /// The same form with the same unknowns once what strikes has been let go: a face without mass is left,
-    /// which nothing pushes. The speed of what strikes is not followed any more. `None` where the face has no
-    /// dashpot, so that it snaps back, or a law depends on its rate.
+    /// which nothing pushes. The speed of what strikes is not followed any more; that of a face which springs alone
+    /// hold has a slot of its own, the last one. `None` where a law depends on the rate of the face.
     pub fn released(&self) -> Option<Self> {
         let face = self.face;
+        let has_dashpot =
+            self.parts.iter().any(|part| part.is_dashpot() && part.ends.contains(&face));
         let mut waits = vec![false; self.bodies];
-        let massless = self.eliminated.iter().map(|own| own.body);
-        massless.chain([face]).for_each(|body| waits[body] = true);
+        self.eliminated.iter().for_each(|own| waits[own.body] = true);
+        waits[face] = has_dashpot;
         let weighed = self.weighed.iter().filter(|own| own.body != face).copied().collect();
-        let own = Self { eliminated: order(waits, &self.parts), weighed, ..self.clone() };
+        let mut own = Self { eliminated: order(waits, &self.parts), weighed, ..self.clone() };
+        if !has_dashpot {
+            own.sprung = Some(own.scales.len());
+            own.scales.push(1.0);
+        }
         let is_linked = own.eliminated.iter().all(|own| !own.neighbours.is_empty());
-        (self.opens && is_linked && own.is_explicit()).then_some(own)
+        let needs_rate =
+            |curve: &Curve| curve.has_rate && own.parts[curve.part].ends.contains(&face);
+        let is_covered = is_linked && own.is_explicit() && !own.curves.iter().any(needs_rate);
+        (self.opens && is_covered).then_some(own)
     }
 
     /// How many bodies with mass it has.
