@@ -4,43 +4,102 @@ use std::hint::black_box;
 
 use dashpot::analysis::{Accuracy, Solve, SolveSettings, sweep::ScenePoint};
 
-use super::{Contender, foam, impact, race, tolerance_by_hand};
+use super::{
+    Contender, foam, impact, race,
+    thesis::{self, Besides},
+    tolerance,
+};
 
 /// The height of the drop \[m\].
 const HEIGHT: f64 = 0.8;
+/// A tolerance at which what is by hand counts as true.
+const FINEST: f64 = 1e-12;
+
+/// A scene that is not linear.
+struct Run<'r> {
+    name: &'r str,
+    scene: ScenePoint,
+    keys: &'r [&'r str],
+    /// The same measures by hand, at a tolerance.
+    by_hand: &'r dyn Fn(f64) -> Vec<f64>,
+}
 
 pub(crate) fn runs() {
-    for accuracy in [1e-3, 1e-6] {
-        let rtol = tolerance_by_hand(accuracy);
-        let scene = foam::scene(HEIGHT);
-        let with = |estimate: bool| {
-            let accuracy = Accuracy::of_all(accuracy);
-            let rtol = (!estimate).then_some(rtol);
-            let settings = SolveSettings { accuracy, estimate, rtol, ..scene.settings.clone() };
-            ScenePoint { network: scene.network.clone(), settings }
+    for run in [
+        Run {
+            name: "a drop on foam",
+            scene: foam::scene(HEIGHT),
+            keys: &foam::KEYS,
+            by_hand: &|rtol| foam::by_hand(black_box(HEIGHT), rtol).to_vec(),
+        },
+        Run {
+            name: "a pad that stiffens",
+            scene: Besides::Stiffening.scene(),
+            keys: &thesis::KEYS,
+            by_hand: &|rtol| black_box(Besides::Stiffening).by_hand(rtol).to_vec(),
+        },
+        Run {
+            name: "a pad with a stop",
+            scene: Besides::Stop(0).scene(),
+            keys: &thesis::KEYS,
+            by_hand: &|rtol| black_box(Besides::Stop(0)).by_hand(rtol).to_vec(),
+        },
+    ] {
+        [1e-3, 1e-6].into_iter().for_each(|accuracy| run.race(accuracy));
+    }
+    reference();
+}
+
+impl Run<'_> {
+    /// Times the run with errors, and a single solution of it that is as good, beside that by hand.
+    fn race(&self, accuracy: f64) {
+        let truth = (self.by_hand)(FINEST);
+        let off = |own: &[f64]| {
+            let all = own.iter().zip(&truth).map(|(own, truth)| (own / truth - 1.0).abs());
+            all.fold(0.0, f64::max)
         };
-        let (full, single) = (with(true), with(false));
-        let solved = |scene: &ScenePoint| {
+        let by_hand = tolerance(|rtol| off(&(self.by_hand)(rtol)) < accuracy);
+        let with = |rtol: Option<f64>| {
+            let settings = SolveSettings {
+                accuracy: Accuracy::of_all(accuracy),
+                estimate: rtol.is_none(),
+                rtol,
+                ..self.scene.settings.clone()
+            };
+            ScenePoint { network: self.scene.network.clone(), settings }
+        };
+        let measured = |scene: &ScenePoint| -> Vec<f64> {
             let report = black_box(&scene.network).solve_with(&scene.settings).expect("a run");
-            report.value("pad.peak-force").expect("a force")
+            self.keys.iter().map(|key| report.value(key).expect("a measure")).collect()
         };
+        let full = with(None);
+        let own = tolerance(|rtol| off(&measured(&with(Some(rtol)))) < accuracy);
+        let single = with(Some(own));
         race(
-            &format!("a run of a drop on foam to {accuracy:.0e}"),
+            &format!("{} to {accuracy:.0e}", self.name),
             &[
                 Contender {
                     name: "by hand: order 5, events",
                     scenes: 1,
-                    solve: Box::new(|| foam::by_hand(black_box(HEIGHT), rtol)[0]),
+                    solve: Box::new(|| (self.by_hand)(by_hand)[0]),
                 },
-                Contender { name: "with errors", scenes: 1, solve: Box::new(|| solved(&full)) },
+                Contender { name: "with errors", scenes: 1, solve: Box::new(|| measured(&full)[0]) },
                 Contender {
                     name: "without errors",
                     scenes: 1,
-                    solve: Box::new(|| solved(&single)),
+                    solve: Box::new(|| measured(&single)[0]),
                 },
             ],
         );
+        let [first, last] = [&full, &single].map(|scene| off(&measured(scene)));
+        println!(
+            "off by: by hand {:.1e} at {by_hand:.0e}, ours {first:.1e}, and {last:.1e} at {own:.0e}",
+            off(&(self.by_hand)(by_hand))
+        );
     }
+}
+
+fn reference() {
     let reference = impact::network(1, 1e4);
     let settings = SolveSettings::lasting(0.02);
     let solve = || {
