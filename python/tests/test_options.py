@@ -81,6 +81,21 @@ def test_numbers_have_the_unit_of_their_option():
     assert own == dashpot.vibrate("reference", drive="ground", **{"from": "10 Hz"}, to="1 kHz", points=5)
 
 
+def test_numbers_are_in_si_units_whatever_they_measure(tmp_path):
+    drop = tmp_path / "drop.csv"
+    times = np.arange(0.0, 0.04, 1e-4)
+    pulse = 2.0 + 900.0 * np.sin(np.pi * np.clip((times - 0.01) / 0.01, 0.0, 1.0))
+    np.savetxt(drop, np.column_stack([times, pulse]), delimiter=",", header="t [s],acc [m/s^2]", comments="")
+    own = dashpot.signal(str(drop), offset=2.0)
+    assert own["channels"] == dashpot.signal(str(drop), offset="2 m/s^2")["channels"]
+    assert own["channels"] != dashpot.signal(str(drop))["channels"]
+    shaken = {"drive": "ground", "at": 20.0}
+    plain = dashpot.vibrate("reference", amplitude=1e-3, **shaken)
+    assert plain["steady"] == dashpot.vibrate("reference", amplitude="1 mm", **shaken)["steady"]
+    plain = dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": 1e-4})
+    assert plain["tests"] == dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": "0.1 ms"})["tests"]
+
+
 def test_mixed_values_are_swept():
     own = dashpot.sweep("reference", {"head.velocity": ["4 m/s", 5.0]}, [KEY])
     assert (own.parameters["head.velocity"] == [4.0, 5.0]).all()

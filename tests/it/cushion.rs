@@ -3,7 +3,10 @@
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::cli::{code, err, file, json, out, run, text};
+use crate::{
+    cli::{code, err, file, json, out, run, text},
+    design_answers::squeezed,
+};
 
 const G0: f64 = 9.80665;
 
@@ -213,6 +216,32 @@ fn a_limit_is_enforced_from_each_height() {
     assert_eq!(with(&["--heights", "60 cm", "--limit", "50 g", "--over", "1.5..2.5 kPa"]), 0);
     assert_eq!(with(&["--heights", "60 cm", "--limit", "50 g", "--over", "1.5..4 kPa"]), 4);
     assert_eq!(with(&["--heights", "60 cm"]), 2, "no limit");
+
+    let told = |more: &[&str]| squeezed(&out(&run(&[&asked[..], more].concat())));
+    let said = told(&["--heights", "30,90 cm", "--limit", "40 g"]);
+    assert!(said.contains("PASS 40.0 g from 300 mm: 50 mm keep it at 1.00 to 4.00 kPa"), "{said}");
+    assert!(said.contains("FAIL 40.0 g from 900 mm: the least peak is"), "{said}");
+    let other = told(&["--heights", "30,90 cm", "--limit", "parcel.peak-acceleration<=40 g"]);
+    assert_eq!(said, other);
+}
+
+/// The static stress of the scene's own mass is told, and marked where it keeps the limit.
+#[test]
+fn the_mass_of_the_scene_is_marked() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "foam.toml", &scene(&foam(&folder, ""), ""));
+    let results = folder.path().join("curves");
+    let limit = ["--thickness", "5 cm", "--stress", "1..4 kPa,7", "--limit", "50 g"];
+    let output = run(&[&["cushion", text(&path)], &limit[..], &["--out", text(&results)]].concat());
+    // 8 kg on 400 cm².
+    let told = squeezed(&out(&output));
+    assert!(told.contains("scene parcel of 8 kg has a static stress of 1.961 kPa"), "{told}");
+    assert!(told.contains("✓ the static stress of parcel in the scene"), "{told}");
+    let figure = std::fs::read_to_string(results.join("cushion-600mm.svg")).unwrap();
+    assert!(figure.contains("parcel 1.96 kPa"), "{figure}");
+    let own = json(&["cushion", text(&path), "--stress", "1 kPa", "--json"]);
+    let stress = own["platen"]["stress"].as_f64().unwrap();
+    assert!((stress / (8.0 * G0 / 0.04) - 1.0).abs() < 1e-14, "{stress}");
 }
 
 #[test]
@@ -231,9 +260,14 @@ fn what_is_no_cushion_test_says_what_to_write() {
     let path = file(&folder, "foam.toml", &scene("{ spring = \"0.4 MPa\" }", ""));
     let path = text(&path);
     for (arguments, told) in [
-        (vec!["--heights", "30 kPa"], "length"),
-        (vec!["--stress", "5 cm"], "pressure"),
-        (vec!["--limit", "50 kg"], "m/s^2"),
+        (vec!["--heights", "30 kPa"], "for example \"2 cm\""),
+        (vec!["--heights", "30,60"], "`30,60` has no unit: write \"30,60 mm\" or"),
+        (vec!["--heights", "30 zm"], "a length (m) is expected"),
+        (vec!["--heights", "high"], "a length (m) is expected"),
+        (vec!["--stress", "5 cm"], "for example \"2 MPa\""),
+        (vec!["--limit", "50 kg"], "for example \"9.81 m/s^2\""),
+        (vec!["--limit", "parcel.hic15<=700"], "\"parcel.peak-acceleration<=50 g\""),
+        (vec!["--limit", "parcel.peak-acceleration>=50 g"], "curves are of"),
         (vec!["--over", "4..9 kPa"], "--limit"),
         (vec!["--platen", "parcels"], "parcel"),
         (vec!["--pad", "foam"], "cushion"),

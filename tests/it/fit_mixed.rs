@@ -211,7 +211,7 @@ fn what_a_test_of_a_model_alone_lacks_is_told() {
     for (at, to, part) in [
         (1, "F=pad", "state how fast it was pressed"),
         (1, "F=pad,rate=10", "has no unit"),
-        (1, "F=pad,rate=10 kg", "is in kg"),
+        (1, "F=pad,rate=10 kg", "a velocity (m/s) is expected here"),
         (1, "F=pad,rate=-10 mm/s", "a rate is above zero"),
         (2, "F=pad,rate=10 mm/s", "it has times"),
         (2, "F=pad,cfc=180", "a class is that of a record of a run"),

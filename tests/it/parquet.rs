@@ -1,7 +1,12 @@
 //! Sweeps written as Parquet while they are solved: the numbers of the table, in parts that come to the same whole
 //! after an interruption.
 
-use std::{collections::BTreeMap, fs, fs::File, path::Path};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    fs::File,
+    path::Path,
+};
 #[cfg(unix)]
 use std::{
     process::{Command, Stdio},
@@ -135,6 +140,35 @@ fn the_numbers_are_those_of_the_table_to_the_bit() {
     assert_eq!(result["measures"][0]["highest"], values.fold(0.0, f64::max));
     let enforced = run(&[&sweep[..], &["--parquet", "--enforce", "--out", text(&folder)]].concat());
     assert_eq!(code(&enforced), 4, "{}", err(&enforced));
+}
+
+/// Both pads pull at the same points, which count once.
+#[test]
+fn a_point_with_two_warnings_of_a_kind_is_one_point() {
+    let room = TempDir::new().unwrap();
+    let pads = "pad = { between = [\"head\", \"ground\"], kelvin-voigt = { spring = \"60 kN/m\", dashpot = \"80 N s/m\" } }
+side = { between = [\"head\", \"ground\"], kelvin-voigt = { spring = \"K\", dashpot = \"80 N s/m\" } }";
+    let (before, rest) = SOFT.split_once("pad = ").unwrap();
+    let (_, after) = rest.split_once('\n').unwrap();
+    let scene = file(&room, "two.toml", &format!("{before}{pads}\n{after}"));
+    let sweep =
+        ["sweep", text(&scene), "--vary", "head.velocity=0.5..9 m/s,30", "--vary", "K=1,20 kN/m"];
+    let report = json(&[&sweep[..], &["--json"]].concat());
+    let pulling =
+        report["warnings"].as_array().unwrap().iter().filter(|own| own["code"] == "pulls");
+    let points: Vec<u64> = pulling
+        .flat_map(|own| own["points"].as_array().unwrap())
+        .map(|own| own.as_u64().unwrap())
+        .collect();
+    let once = points.iter().collect::<BTreeSet<_>>().len();
+    assert!(0 < once && once < points.len(), "{points:?}");
+    let folder = room.path().join("points");
+    let written = run(&[&sweep[..], &["--parquet", "--out", text(&folder)]].concat());
+    assert_eq!(code(&written), 0, "{}", err(&written));
+    let result: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("result.json")).unwrap()).unwrap();
+    let told = result["warnings"].as_array().unwrap().iter().find(|own| own["code"] == "pulls");
+    assert_eq!(told.unwrap()["points"], once);
 }
 
 /// Three files, of which the middle one is taken away: it is solved again, to the byte, and the others are not touched.

@@ -88,6 +88,25 @@ fn measures_without_hope_are_told_by_check_and_before_a_run() {
     }
 }
 
+/// A pad that hardly resists takes up next to nothing of the work of the load.
+#[test]
+fn next_to_nothing_is_no_share() {
+    let soft = told(
+        "[nodes]
+head = { mass = \"5 kg\", velocity = \"1 um/s\" }
+plate = { mass = \"5 kg\" }
+[elements]
+pad = { between = [\"head\", \"plate\"], spring = \"1e-14 N/m\" }
+[loads]
+push = { on = \"head\", force = { half-sine = { peak = \"2 kN\", duration = \"10 ms\" } } }
+[run]
+duration = \"50 ms\"
+",
+        &[],
+    );
+    assert!(soft.contains("pad takes up 0 J of 16.2 J put in contact"), "{soft}");
+}
+
 #[test]
 fn results_leave_none_of_the_earlier_ones_behind() {
     let (folder, path) = written(&format!("{PAD}[run]\nduration = \"40 ms\"\n"));

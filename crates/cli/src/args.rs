@@ -232,7 +232,7 @@ pub(crate) fn time(text: &str) -> Result<f64, String> {
 
 /// A time \[s\], or a difference of times.
 pub(crate) fn shift(text: &str) -> Result<f64, String> {
-    crate::input::setting("time", text.trim(), Dimension::TIME).map_err(|error| error.to_string())
+    crate::input::argument("time", text, Dimension::TIME)
 }
 
 /// Units of work: a whole number, or one such as 1e9.

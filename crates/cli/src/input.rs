@@ -9,8 +9,8 @@ use std::{
 
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    ReadOptions, Scene, nearest, references, table_text, text_of_bytes, units::parse_quantity,
-    with_units,
+    Fault, ReadOptions, Scene, nearest, references, table_text, text_of_bytes,
+    units::parse_quantity, with_units,
 };
 
 use crate::{
@@ -82,25 +82,36 @@ pub(crate) fn title(scene: &Scene) -> &str {
     scene.title.as_deref().or(scene.file.as_deref()).unwrap_or("a scene without title")
 }
 
-/// The value of a setting of this name, in SI units; a bare number may be meant in others, and is none but zero.
+/// The value of a setting of this name, in SI units. A bare number may be meant in others, and is none but zero; that of
+/// a program that calls is in SI units.
 pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
     let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };
-    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?.meant(expected);
+    let unlike = |fault: Fault| CliError::quantity(name, fault);
+    let found = parse_quantity(text);
+    let found =
+        found.map_err(|error| unlike(Fault::Unreadable { error, expected }))?.meant(expected);
     match found.dimension {
-        Some(own) if own != expected => {
-            let unit = |dimension: Dimension| dimension.named().map_or("another unit", |own| own.1);
-            Err(wrong(format!("`{text}` is in {}, where {} is wanted", unit(own), unit(expected))))
+        Some(found) if found != expected => {
+            Err(unlike(Fault::WrongDimension { text: text.to_owned(), found, expected }))
         }
-        None if expected != Dimension::NUMBER && found.value != 0.0 => {
+        None if expected != Dimension::NUMBER && found.value != 0.0 && !host::is_called() => {
             Err(wrong(format!("`{text}` has no unit: write {}", with_units(text, expected))))
         }
         _ if found.angle == 0 => Ok(found.value),
         Some(Dimension::FREQUENCY) => {
             let frequency = found.value / std::f64::consts::TAU;
-            Err(wrong(format!("`{text}` is an angular frequency; write \"{frequency:.6} Hz\"")))
+            Err(unlike(Fault::AngularFrequency { text: text.to_owned(), frequency }))
         }
         _ => Err(wrong(format!("`{text}` is an angle"))),
     }
+}
+
+/// The same for a value of the command line, with what to write in one sentence.
+pub(crate) fn argument(name: &str, text: &str, expected: Dimension) -> Result<f64, String> {
+    setting(name, text.trim(), expected).map_err(|error| match error.help() {
+        Some(help) => format!("{error}; {help}"),
+        None => error.to_string(),
+    })
 }
 
 /// What may be meant by a name that no file has: the same with or without the ending of a scene, or a

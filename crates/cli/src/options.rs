@@ -40,21 +40,27 @@ pub fn options(verb: &str) -> Option<Vec<VerbOption>> {
 fn option(own: &Arg) -> Option<VerbOption> {
     let is_asking = matches!(own.get_action(), ArgAction::Help | ArgAction::HelpShort);
     let name = own.get_long().filter(|_| !is_asking)?.to_owned();
-    let place = own.get_value_names().and_then(|names| names.first()).map_or("", |own| own);
-    let place = place.trim_end_matches(",…");
     Some(VerbOption {
         name,
         is_repeated: matches!(own.get_action(), ArgAction::Append),
-        unit: UNITS.iter().find(|own| own.0 == place).map_or("", |own| own.1),
+        unit: UNITS.iter().find(|unit| unit.0 == place(own)).map_or("", |unit| unit.1),
         words: own.get_possible_values().iter().map(|own| own.get_name().to_owned()).collect(),
     })
 }
 
+/// What the place of its value in the help is named.
+fn place(own: &Arg) -> &str {
+    let name = own.get_value_names().and_then(|names| names.first());
+    name.map_or("", |name| name.trim_end_matches(",…"))
+}
+
 #[cfg(test)]
 mod tests {
+    use clap::{Command, CommandFactory};
     use dashpot_scene::units::parse_dimension;
 
-    use super::{UNITS, options};
+    use super::{UNITS, options, place};
+    use crate::verbs::Arguments;
 
     #[test]
     fn options_say_what_they_take() {
@@ -69,11 +75,11 @@ mod tests {
 
     #[test]
     fn units_are_units_and_each_has_its_options() {
-        let verbs = ["run", "cushion", "signal", "vibrate"];
-        let known: Vec<_> = verbs.iter().flat_map(|verb| options(verb).unwrap()).collect();
-        for (place, unit) in UNITS {
+        let command = Arguments::command();
+        let known = || command.get_subcommands().flat_map(Command::get_arguments).map(place);
+        for (name, unit) in UNITS {
             assert!(parse_dimension(unit).is_ok(), "{unit}");
-            assert!(known.iter().any(|own| own.unit == unit), "{place}");
+            assert!(known().any(|own| own == name), "{name}");
         }
     }
 }

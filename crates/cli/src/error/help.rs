@@ -28,8 +28,11 @@ impl CliError {
                 "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
                     .to_owned(),
             ),
+            Self::Quantity { fault, .. } => fault.help(),
             Self::Shard { fault, .. } => Some(fault.help().to_owned()),
-            Self::Interrupted { .. } => Some("the same command goes on from there".to_owned()),
+            Self::Interrupted { kept: 1.., .. } => {
+                Some("the same command goes on from there".to_owned())
+            }
             Self::ColumnTaken { .. } => {
                 Some("give the column of the table another heading, such as `design`".to_owned())
             }

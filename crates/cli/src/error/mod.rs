@@ -18,7 +18,7 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::{
-    Diagnostics, ListedFault, TableError, TunableFault, Unwritable, VariationFault,
+    Diagnostics, Fault, ListedFault, TableError, TunableFault, Unwritable, VariationFault,
 };
 use dashpot_signal::{ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
@@ -157,7 +157,7 @@ pub(crate) enum CliError {
     #[error("`{}`: {fault}", .path.display())]
     Shard { path: PathBuf, fault: ShardFault },
     /// A sweep that was interrupted, of which so many points are kept.
-    #[error("interrupted: {kept} of {of} points are kept in `{}`", .path.display())]
+    #[error("{}", interrupted(*.kept, *.of, .path))]
     Interrupted { kept: usize, of: usize, path: PathBuf },
     /// Words of a table of designs under a heading that its results have.
     #[error("the points have a column `{name}` of their own beside that of the table of designs")]
@@ -195,6 +195,9 @@ pub(crate) enum CliError {
     /// A parameter of a test with a value that cannot be used.
     #[error("`{name}`: {reason}")]
     WrongSetting { name: String, reason: String },
+    /// A setting that is no quantity, or one of another dimension.
+    #[error("`{name}`: {fault}")]
+    Quantity { name: String, fault: Box<Fault> },
     /// An element that a scene does not have.
     #[error("there is no element `{name}`; the elements are {}", .known.join(", "))]
     UnknownElement { name: String, known: Vec<String> },
@@ -262,6 +265,13 @@ impl From<NoCushion> for CliError {
     }
 }
 
+fn interrupted(kept: usize, of: usize, path: &Path) -> String {
+    match kept {
+        0 => format!("interrupted before the first file was whole: nothing is kept of {of} points"),
+        kept => format!("interrupted: {kept} of {of} points are kept in `{}`", path.display()),
+    }
+}
+
 /// An error of the system at this path.
 pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> {
     let path = path.to_owned();
@@ -269,6 +279,11 @@ pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> 
 }
 
 impl CliError {
+    /// What is wrong with a quantity of this name.
+    pub(crate) fn quantity(name: &str, fault: Fault) -> Self {
+        Self::Quantity { name: name.to_owned(), fault: Box::new(fault) }
+    }
+
     /// The one table of exit codes.
     pub(crate) fn status(&self) -> Status {
         match self {
@@ -341,5 +356,23 @@ pub(crate) fn reason(error: &io::Error) -> String {
             // The number is of no use to people.
             text.split_once(" (os error").map_or(text.clone(), |(words, _)| words.to_owned())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CliError;
+
+    #[test]
+    fn a_sweep_interrupted_before_its_first_file_keeps_nothing() {
+        let told = |kept: usize| {
+            let own = CliError::Interrupted { kept, of: 10_000, path: "pts".into() };
+            (own.to_string(), own.help())
+        };
+        let (text, help) = told(0);
+        assert!(text.ends_with("nothing is kept of 10000 points") && help.is_none(), "{text}");
+        let (text, help) = told(4096);
+        assert_eq!(text, "interrupted: 4096 of 10000 points are kept in `pts`");
+        assert!(help.is_some());
     }
 }

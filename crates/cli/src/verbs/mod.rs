@@ -7,6 +7,7 @@ mod convert;
 mod cost;
 mod cushion;
 mod design;
+mod examples;
 mod explain;
 mod fit;
 mod groups;
@@ -44,7 +45,8 @@ use crate::{
         dashpot run pad.toml            solve it: forces, g, depth, and their errors\n\n\
         Exit codes: 0 done (warnings included), 1 a run failed, 2 the input is wrong,\n\
         3 `compare` says that two models are not the same, `groups` that two scenes\n\
-        are not similar, 4 `--enforce`: a limit is not kept, or not for certain."
+        are not similar, 4 `--enforce`: a limit is not kept, or not for certain.",
+    mut_subcommands = examples::on_lines
 )]
 pub(crate) struct Arguments {
     /// What to do.

@@ -27,8 +27,8 @@ const PLACE: usize = 13;
 /// `thesis`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    dashpot thesis                                   numbers and claims, with verdicts\n  \
-    dashpot thesis --out thesis                      figures, CSV, and the whole report\n  \
+    dashpot thesis                                   numbers, claims with verdicts\n  \
+    dashpot thesis --out thesis                      figures, CSV and a report\n  \
     dashpot thesis --json | jq '.claims[] | [.verdict, .claim]'\n\n\
     The values that the figures of the thesis used for a, b, c and d are lost; those shown are chosen. \
     Beside each curve stand its springs, dashpots, q and largest deformation; what exceeds the \

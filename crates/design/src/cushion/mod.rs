@@ -96,9 +96,12 @@ impl Cushion {
         if !self.thinnest.is_empty() {
             return self.thinnest.iter().all(|own| own.over_all.is_ok());
         }
-        let of_height =
-            self.curves.chunk_by(|one, next| one.height.to_bits() == next.height.to_bits());
-        of_height.into_iter().all(|own| own.iter().any(|own| own.passing.is_some()))
+        self.of_heights().all(|own| own.iter().any(|own| own.passing.is_some()))
+    }
+
+    /// The curves of each height.
+    pub fn of_heights(&self) -> impl Iterator<Item = &[Curve]> {
+        self.curves.chunk_by(|one, next| one.height.to_bits() == next.height.to_bits())
     }
 }
 

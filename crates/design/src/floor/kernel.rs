@@ -1,10 +1,18 @@
 //! How far body and support approach each other after a unit impulse between them.
 
+use std::iter::successors;
+
 use dashpot_dae::Signal;
 use dashpot_numerics::quadrature::integral;
 
-/// Pieces into which an interval is cut where a power of time begins.
+use super::HIC_EXPONENT;
+
+/// A time is cut into so many pieces at least, and where windows of impulse begin.
 const PIECES: usize = 8;
+/// More pieces are not told apart.
+const MOST: usize = 512;
+/// The power of its length with which the impulse of a window grows, of one value of the head injury criterion.
+const GROWTH: f64 = 1.0 - 1.0 / HIC_EXPONENT;
 
 /// The approach `G` per impulse \[m/(N s)\].
 #[derive(Debug, Clone)]
@@ -47,28 +55,43 @@ impl Kernel {
         }
     }
 
-    /// The largest `∫ G(t − s) dJ(s)` from 0 to `t` of all `J` that go no further than `most(s)` to either side: by
-    /// parts `|G(0)| J(t) + ∫ |G′(t − s)| J(s) ds`.
-    pub(super) fn paced(&self, time: f64, most: &dyn Fn(f64) -> f64) -> f64 {
-        let slope = |lag: f64| match self {
-            Self::Fixed { mass } => mass.recip(),
-            Self::Moving(own) => own.slope(lag).abs(),
+    /// The largest `∫ G(t − s) dJ(s)` from 0 to `t` of all `J` of which no window of a length `τ` up to a cap has more
+    /// than `τ^0.6`: by parts `|G(0)| J(t) + ∫ |G′(t − s)| J(s) ds`.
+    pub(super) fn paced(&self, time: f64, cap: f64) -> f64 {
+        let own = match self {
+            Self::Fixed { mass } => return paced_area(time, cap) / mass,
+            Self::Moving(own) => own,
         };
-        let first = match self {
-            Self::Fixed { .. } => 0.0,
-            Self::Moving(own) => own.value(0.0).abs() * most(time),
-        };
+        let window = cap.min(time);
+        let length = (window / (PIECES as f64 * window / time).ceil()).max(time / MOST as f64);
         // By x⁵ in place of the time since a piece began a power 0.6 of it is smooth.
-        let length = time / PIECES as f64;
-        let top = length.powf(0.2);
-        let piece = |at: usize| {
-            let from = at as f64 * length;
+        let piece = |from: f64| {
             let inner = |x: f64| {
                 let since = from + x.powi(5);
-                5.0 * x.powi(4) * most(since) * slope(time - since)
+                5.0 * x.powi(4) * paced(since, cap) * own.slope(time - since).abs()
             };
-            integral(inner, 0.0, top)
+            integral(inner, 0.0, (time - from).clamp(0.0, length).powf(0.2))
         };
-        first + (0..PIECES).map(piece).sum::<f64>()
+        let starts = successors(Some(0.0), |at| Some(at + 1.0)).map(|at: f64| at * length);
+        let pieces = starts.take_while(|from| *from < time).map(piece);
+        own.value(0.0).abs() * paced(time, cap) + pieces.sum::<f64>()
     }
+}
+
+/// The most impulse from the start where no window of the length `τ` up to a cap has more than `τ^0.6`.
+fn paced(since: f64, cap: f64) -> f64 {
+    let whole = (since / cap).floor();
+    whole * cap.powf(GROWTH) + (since - whole * cap).max(0.0).powf(GROWTH)
+}
+
+/// Its integral from the start.
+fn paced_area(since: f64, cap: f64) -> f64 {
+    let whole = (since / cap).floor();
+    let rest = (since - whole * cap).max(0.0);
+    let window = |length: f64| length.powf(GROWTH + 1.0) / (GROWTH + 1.0);
+    if whole == 0.0 {
+        return window(rest);
+    }
+    let before = whole * cap.powf(GROWTH) * (0.5 * (whole - 1.0) * cap + rest);
+    before + whole * window(cap) + window(rest)
 }

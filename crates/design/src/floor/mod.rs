@@ -189,16 +189,9 @@ impl Stroke {
                 (missing / (norm * mass * STANDARD_GRAVITY)).powf(exponent)
             }
             Judged::Hic { cap } => {
-                let most = self.kernel.paced(time, &|since| paced(since, cap));
+                let most = self.kernel.paced(time, cap);
                 (missing / (most * mass * STANDARD_GRAVITY)).powf(HIC_EXPONENT)
             }
         }
     }
-}
-
-/// The most impulse from the start where no window of the length `τ` up to a cap has more than `τ^0.6`.
-fn paced(since: f64, cap: f64) -> f64 {
-    let power = 1.0 - 1.0 / HIC_EXPONENT;
-    let whole = (since / cap).floor();
-    whole * cap.powf(power) + (since - whole * cap).max(0.0).powf(power)
 }

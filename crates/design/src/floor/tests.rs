@@ -91,6 +91,27 @@ fn a_short_window_takes_something_off_the_least_hic() {
     assert!(all[0].value > all[1].value && all[1].value > all[2].value, "{all:?}");
 }
 
+/// The force of a full window over and over, where there are some hundred of them, takes up the travel: the sum of what it
+/// moves window by window.
+#[test]
+fn very_short_windows_are_counted_one_by_one() {
+    let (mass, speed, travel) = (5.0, 4.0, 0.06);
+    let stroke = Stroke::on_fixed(mass, speed, 0.0, travel).unwrap();
+    for cap in [1e-4, 2.7e-5] {
+        let floor = value(&stroke, Judged::Hic { cap });
+        let size = floor.value.powf(1.0 / HIC_EXPONENT) * G0;
+        let (mut lost, mut moved, mut from) = (0.0, 0.0, 0.0);
+        while from < floor.time {
+            let length = cap.min(floor.time - from);
+            moved += lost * length + length.powf(1.6) / 1.6;
+            lost += length.powf(0.6);
+            from += cap;
+        }
+        assert!(from > 250.0 * cap);
+        near(speed * floor.time - size * moved, travel, 1e-11);
+    }
+}
+
 /// The force of a full window over and over, scaled to the floor, stops the body within the travel, and no window of it
 /// has more than the floor.
 #[test]

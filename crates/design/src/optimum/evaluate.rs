@@ -1,4 +1,4 @@
-//! What designs come to: their measures, and how far pads and laws are pressed in parts of what is known of them.
+//! What designs come to: their measures, and how far pads and laws are pressed in parts of their thickness or range.
 
 use dashpot_analysis::{
     Bound, Limit, RunReport, Solve, SolveSettings,
@@ -15,10 +15,19 @@ const RTOL: f64 = 1e-9;
 pub enum Requirement {
     /// A limit of the scene or the command.
     Limit(Limit),
-    /// A pad, or a law that ends, is not pressed further than is known of it; its name or path.
-    Known(String),
+    /// A pad is not pressed by more than its thickness, or a law not beyond its last point; its name or path.
+    Depth(String, DepthOf),
     /// Another aim is at most this, in SI units; without a bound where it is infinite.
     Ceiling(Aim, f64),
+}
+
+/// What a deformation is a part of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DepthOf {
+    /// The thickness of a pad.
+    Thickness,
+    /// The range of a law, up to its last point.
+    Law,
 }
 
 /// A requirement, and the test in which it has to be kept.
@@ -44,7 +53,7 @@ pub(super) struct Evaluator<'p> {
 pub(super) struct Evaluated {
     /// The aim in each test, where it is a measure; of a number that number.
     pub(super) aims: Vec<f64>,
-    /// The values of what is required: a measure in its unit, or a part of what is known.
+    /// The values of what is required: a measure in its unit, or a part of a thickness or a range.
     pub(super) values: Vec<f64>,
 }
 
@@ -55,7 +64,7 @@ impl Requirement {
             (Self::Limit(one), Self::Limit(other)) => {
                 one.key == other.key && one.bound.sign() == other.bound.sign()
             }
-            (Self::Known(one), Self::Known(other)) => one == other,
+            (Self::Depth(one, a), Self::Depth(other, b)) => one == other && a == b,
             (Self::Ceiling(one, _), Self::Ceiling(other, _)) => one == other,
             _ => false,
         }
@@ -64,7 +73,7 @@ impl Requirement {
     /// How far a value exceeds it, in parts of the bound; negative where it is kept.
     pub(super) fn excess(&self, value: f64, slack: f64) -> f64 {
         match self {
-            Self::Known(_) => value - 1.0 + slack,
+            Self::Depth(..) => value - 1.0 + slack,
             Self::Ceiling(_, most) if most.is_infinite() => -1.0,
             Self::Ceiling(_, most) => {
                 let size = if *most == 0.0 { 1.0 } else { most.abs() };
@@ -97,10 +106,10 @@ impl<'p> Evaluator<'p> {
             let limits = point.settings.limits.clone();
             let run = point.network.solve_with(&point.settings)?;
             let of_limits = limits.into_iter().map(Requirement::Limit);
-            let known = reaches(&run).into_iter().map(|own| Requirement::Known(own.0));
+            let depths = reaches(&run).into_iter().map(|own| Requirement::Depth(own.0, own.1));
             let ceiling = other.filter(|other| test == 0 || matches!(other, Aim::Measure(_)));
             let ceiling = ceiling.map(|own| Requirement::Ceiling(own.clone(), f64::INFINITY));
-            let all = of_limits.chain(known).chain(ceiling);
+            let all = of_limits.chain(depths).chain(ceiling);
             own.required.extend(all.map(|what| Required { test, what }));
         }
         Ok(own)
@@ -176,9 +185,9 @@ impl<'p> Evaluator<'p> {
         let of_test = self.required.iter().filter(|own| own.test == test);
         let each = of_test.map(|own| match &own.what {
             Requirement::Limit(limit) => value(run, &limit.key),
-            Requirement::Known(name) => {
-                let found = reached.iter().find(|own| own.0 == *name);
-                found.map_or(f64::NAN, |own| own.1)
+            Requirement::Depth(name, of) => {
+                let found = reached.iter().find(|own| own.0 == *name && own.1 == *of);
+                found.map_or(f64::NAN, |own| own.2)
             }
             Requirement::Ceiling(Aim::Measure(key), _) => value(run, key),
             Requirement::Ceiling(Aim::Number(at), _) => values[*at],
@@ -217,16 +226,18 @@ fn value(run: &RunReport, key: &str) -> f64 {
 }
 
 /// How far each pad, and each law that ends, is pressed in parts of its thickness or its last point.
-fn reaches(run: &RunReport) -> Vec<(String, f64)> {
+fn reaches(run: &RunReport) -> Vec<(String, DepthOf, f64)> {
     let part = |deformation: usize, whole: f64| run.deepest(deformation) / whole;
     let mut all = Vec::new();
     for own in &run.assembly.connections {
-        let pad = own.thickness.map(|whole| (own.name.clone(), part(own.deformation, whole)));
+        let pad = own
+            .thickness
+            .map(|whole| (own.name.clone(), DepthOf::Thickness, part(own.deformation, whole)));
         let parts = run.assembly.primitives.get(own.primitives.clone()).unwrap_or(&[]);
         let laws = parts.iter().filter_map(|own| {
             let (_, last) = own.element.range()?;
             (last > 0.0 && last.is_finite())
-                .then(|| (own.name.clone(), part(own.deformation, last)))
+                .then(|| (own.name.clone(), DepthOf::Law, part(own.deformation, last)))
         });
         all.extend(pad.into_iter().chain(laws));
     }

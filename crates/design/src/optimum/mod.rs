@@ -1,11 +1,11 @@
 //! The best numbers of a scene within its limits.
 //!
 //! Numbers may vary between bounds; what is made least is one of them, or a measure, in the worst of several tests.
-//! Every limit has to be kept in every test, and no pad or law may be pressed further than is known of it. Designs
-//! spread over the bounds are solved first: all points of a grid for one or two numbers, a Latin hypercube for more.
-//! From the best of them the optimum is sought by sequential quadratic programming with differences of solutions as
-//! gradients; where none of them keeps everything, the least excess is sought first. What is found is solved once more
-//! with its errors, and moved inwards where these reach across a limit.
+//! Every limit has to be kept in every test, no pad may be pressed by more than its thickness, and no law beyond its
+//! last point. Designs spread over the bounds are solved first: all points of a grid for one or two numbers, a Latin
+//! hypercube for more. From the best of them the optimum is sought by sequential quadratic programming with differences
+//! of solutions as gradients; where none of them keeps everything, the least excess is sought first. What is found is
+//! solved once more with its errors, and moved inwards where these reach across a limit.
 
 mod aims;
 mod along;
@@ -30,7 +30,7 @@ use thiserror::Error;
 use self::search::Search;
 pub use self::{
     along::along,
-    evaluate::{Required, Requirement},
+    evaluate::{DepthOf, Required, Requirement},
     found::{Borne, Design, Front, FrontPoint, Kept, Looked, Searched, Side, Slope},
     front::{front, undominated},
     robust::{PoseScattered, Scattered, robust},

@@ -55,11 +55,11 @@ impl<'p> Search<'p> {
         Ok(Self { evaluator, space, effort, solved: AtomicUsize::new(0) })
     }
 
-    /// By how much requirements are drawn in at least: what is known of pads and laws is not left by rounding either.
+    /// By how much requirements are drawn in at least: neither thickness nor law is left by rounding.
     pub(super) fn no_slack(&self) -> Vec<f64> {
-        let is_known = |own: &Required| matches!(own.what, Requirement::Known(_));
+        let is_depth = |own: &Required| matches!(own.what, Requirement::Depth(..));
         let all = self.evaluator.required.iter();
-        all.map(|own| if is_known(own) { DRAWN_IN } else { 0.0 }).collect()
+        all.map(|own| if is_depth(own) { DRAWN_IN } else { 0.0 }).collect()
     }
 
     /// Solves designs spread over the bounds, and where the scene begins.

@@ -16,6 +16,8 @@ pub struct CushionSeries {
     pub curves: Vec<CushionCurve>,
     /// The most that a peak may be \[g\].
     pub limit: Option<f64>,
+    /// A static stress \[kPa\] of its own, and what has it; not drawn beyond the curves.
+    pub own: Option<(f64, String)>,
 }
 
 /// The curve of one thickness.
@@ -44,7 +46,7 @@ pub enum CushionMark {
     Known,
     /// The cushion meets its stop there.
     OnStop,
-    /// The cushion is pressed beyond what is known of it.
+    /// The cushion is pressed beyond its law or its thickness.
     Beyond,
 }
 
@@ -61,7 +63,7 @@ impl CushionMark {
         match self {
             Self::Known => "",
             Self::OnStop => "dashed: on the stop",
-            Self::Beyond => "dotted: beyond what is known",
+            Self::Beyond => "dotted: beyond the law or the thickness",
         }
     }
 }
@@ -109,6 +111,13 @@ impl CushionSeries {
             label: format!("limit {} g", rounded(at)),
             colour: None,
         });
+        let own =
+            self.own.as_ref().filter(|own| self.reaches(own.0)).map(|(at, name)| ReferenceLine {
+                direction: Direction::Vertical,
+                at: *at,
+                label: format!("{name} {} kPa", rounded(*at)),
+                colour: None,
+            });
         series.extend(floors);
         Chart {
             title: self.title.clone(),
@@ -119,9 +128,18 @@ impl CushionSeries {
             family: series.len(),
             series,
             markers: markers.collect(),
-            lines: limit.into_iter().collect(),
+            lines: limit.into_iter().chain(own).collect(),
             ..Chart::default()
         }
+    }
+
+    /// Whether a curve has stresses on both sides of this one.
+    fn reaches(&self, stress: f64) -> bool {
+        let is_within = |own: &CushionCurve| {
+            let ends = own.points.first().zip(own.points.last());
+            ends.is_some_and(|(low, high)| (low.0..=high.0).contains(&stress))
+        };
+        self.curves.iter().any(is_within)
     }
 
     fn has(&self, mark: CushionMark) -> bool {
@@ -259,6 +277,7 @@ mod tests {
             title: "Drops".into(),
             curves: vec![curve],
             limit: Some(50.0),
+            own: Some((3.0, "parcel".into())),
             ..CushionSeries::default()
         }
     }
@@ -284,11 +303,19 @@ mod tests {
         assert_eq!(chart.series[2].points, [(2.0, 40.0), (4.0, 60.0)]);
         assert!(chart.series.iter().all(|own| own.stroke.unwrap().colour == 0));
         let svg = chart.svg().unwrap();
-        for text in
-            ["static stress (kPa)", "limit 50 g", "40 g", "dashed: on the stop", "areas: 95 %"]
-        {
+        for text in [
+            "static stress (kPa)",
+            "limit 50 g",
+            "parcel 3 kPa",
+            "40 g",
+            "dashed: on the stop",
+            "areas: 95 %",
+        ] {
             assert!(svg.contains(text), "{text}");
         }
+        // A stress beyond the curves would stretch the axis.
+        let beyond = CushionSeries { own: Some((9.0, "parcel".into())), ..series() };
+        assert_eq!(beyond.chart().lines.len(), 1);
     }
 
     #[test]

@@ -103,6 +103,8 @@ pub(crate) enum Subject<'d> {
     Key(&'d str),
     /// Nothing is said: it may have any size, or others look at it.
     Unwatched,
+    /// Nothing is said of an index either, which is a number to people, whatever its dimension is.
+    Index,
 }
 
 /// An element whose thickness may be what a share is meant of.
@@ -132,6 +134,9 @@ impl Target<'_> {
 /// Digits of a length that a share was meant for.
 const SHARE_DIGITS: usize = 7;
 
+/// How a level of an index is written.
+pub(crate) const INDEX_HELP: &str = "an index is written without a unit, for example `700`";
+
 impl<'d> Quantities<'d> {
     /// Those of a key.
     pub(crate) fn of(self, key: &'d str) -> Self {
@@ -141,6 +146,11 @@ impl<'d> Quantities<'d> {
     /// Those of which nothing is said where they are unusual.
     pub(crate) fn unwatched(self) -> Self {
         Self { subject: Subject::Unwatched, ..self }
+    }
+
+    /// Those that are levels of an index.
+    pub(crate) fn index(self) -> Self {
+        Self { subject: Subject::Index, ..self }
     }
 
     /// The quantity `item` as written, in SI units, with an error where it does not have the
@@ -270,7 +280,7 @@ impl<'d> Quantities<'d> {
     /// Warns of the value of `item`, in SI units, where it is unusual.
     pub(crate) fn warn(self, item: &Item, dimension: Dimension, value: f64) {
         let key = match self.subject {
-            Subject::Unwatched => return,
+            Subject::Unwatched | Subject::Index => return,
             Subject::Key(key) => key,
             Subject::Value => "",
         };
@@ -369,7 +379,10 @@ impl<'d> Quantities<'d> {
         let fault = if matches!(error, UnitError::NoNumber { .. }) && could_be_name(name) {
             Fault::UnknownName { family: "value", name: name.to_owned(), known: self.known() }
         } else {
-            Fault::Unreadable { error, expected }
+            match self.subject {
+                Subject::Index => Fault::Unreadable { error, expected }.with_help(INDEX_HELP),
+                _ => Fault::Unreadable { error, expected },
+            }
         };
         self.faults.error(place, fault);
         None
@@ -377,15 +390,18 @@ impl<'d> Quantities<'d> {
 
     fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<f64> {
         let expected = self.basis.dimension(in_model);
-        let quantity = quantity.meant(expected);
+        let is_index = matches!(self.subject, Subject::Index);
+        let quantity = quantity.meant(if is_index { Dimension::ACCELERATION } else { expected });
         let found = quantity.dimension.unwrap_or(expected);
         let text = item.text().map_or("", str::trim);
         let is_named =
             self.values.contains_key(text) || !text.is_empty() && parse_quantity(text).is_err();
         let shown = || self.shown(item);
         if found != expected {
-            let fault = Fault::WrongDimension { text: shown(), found, expected };
+            let told = if is_index { Dimension::NUMBER } else { expected };
+            let fault = Fault::WrongDimension { text: shown(), found, expected: told };
             let fault = match found {
+                _ if is_index => fault.with_help(INDEX_HELP),
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
                 Dimension::MASS if expected == Dimension::ACCELERATION && is_named => fault
                     .with_help("in [values] and in arithmetic `g` is the gram: write `g0` there"),

@@ -15,6 +15,7 @@ use crate::{
     diagnostics::fault::Fault,
     quantities::{
         arithmetic::names,
+        quantity::INDEX_HELP,
         words::{in_both_units, with_units},
     },
     text::{
@@ -126,13 +127,17 @@ fn unit_of(text: &str, expected: Dimension) -> Option<Unit> {
 /// The dimension of a level that is to have a unit: a bare one would be read in one that is perhaps not meant.
 /// Indices are plain numbers to the field.
 pub(crate) fn unit_wanted(kind: &MeasureEntry, level: f64) -> Option<Dimension> {
-    let is_index = (kind.about.default)().gravities() != 0.0;
     let own = dimension(kind);
-    (level != 0.0 && !is_index && own != Dimension::NUMBER).then_some(own)
+    (level != 0.0 && !is_index(kind) && own != Dimension::NUMBER).then_some(own)
+}
+
+fn is_index(kind: &MeasureEntry) -> bool {
+    (kind.about.default)().gravities() != 0.0
 }
 
 fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64> {
-    let quantities = reading.quantities().unwatched();
+    let quantities = reading.quantities();
+    let quantities = if is_index(kind) { quantities.index() } else { quantities.unwatched() };
     let level = quantities.read(item, dimension(kind))?;
     if let Some(expected) = unit_wanted(kind, level).filter(|_| quantities.is_bare(item)) {
         let fault = Fault::BareLimit { text: quantities.shown(item), level, expected };
@@ -268,8 +273,14 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
     };
     let rest = max.or(min).ok_or_else(strict)?.trim();
     let expected = dimension(kind);
-    let quantity = parse_quantity(rest).map_err(|error| error.to_string())?.meant(expected);
+    let meant = if is_index(kind) { Dimension::ACCELERATION } else { expected };
+    let quantity = parse_quantity(rest).map_err(|error| error.to_string())?.meant(meant);
     match quantity.dimension {
+        Some(found) if found != expected && is_index(kind) => {
+            let expected = Dimension::NUMBER;
+            let fault = Fault::WrongDimension { text: rest.to_owned(), found, expected };
+            Err(format!("{fault}; {INDEX_HELP}"))
+        }
         Some(found) if found != expected => {
             Err(Fault::WrongDimension { text: rest.to_owned(), found, expected }.to_string())
         }

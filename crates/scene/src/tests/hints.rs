@@ -320,6 +320,23 @@ fn a_limit_with_a_sign_is_told_its_key() {
 }
 
 #[test]
+fn a_level_of_an_index_is_a_number() {
+    let scene = |level: &str| format!("{}[limits]\nhead.hic15 = {level}\n", on_model("spring = 1"));
+    for (level, fault) in [
+        ("\"10 g\"", "`10 g` is an acceleration (m/s^2); a pure number is expected here"),
+        ("{ max = \"700 mm\" }", "`700 mm` is a length (m); a pure number is expected here"),
+        ("\"700 gg\"", "gg"),
+    ] {
+        let told = messages(&scene(level));
+        has(&told, &[fault, "help: an index is written without a unit, for example `700`"]);
+        assert!(!told.contains("ms\""), "{told}");
+    }
+    assert!(read_text(&scene("700")).is_ok());
+    let told = crate::parse_limits("head.hic15<=10 g").unwrap_err();
+    assert!(told.ends_with("an index is written without a unit, for example `700`"), "{told}");
+}
+
+#[test]
 fn a_body_without_a_shape_is_told_the_keys_of_each() {
     for keys in ["{ radius = \"5 cm\" }", "{ sphere = \"5 cm\" }", "{}"] {
         let text = format!(

@@ -29,10 +29,10 @@ parameters! {
     ///
     /// | figure                 | law                                                              |
     /// |------------------------|------------------------------------------------------------------|
-    /// | energy absorbed        | `∫ F dy` on the way out                                          |
+    /// | energy absorbed        | `∫ F dy` on the way out, what is taken up                        |
     /// | energy returned        | `∫ F dy` on the way back, until the force comes to zero          |
-    /// | energy lost            | what is absorbed less what is returned: the area of the loop     |
-    /// | hysteresis ratio       | lost over absorbed                                               |
+    /// | energy lost            | what is taken up less what is returned: the area of the loop     |
+    /// | hysteresis ratio       | lost over taken up                                               |
     /// | residual deformation   | the deformation at which the force comes to zero                 |
     ///
     /// What is lost is what the parts dissipate until the force comes to zero, and what stays stored in

@@ -1,12 +1,16 @@
 //! What cushion curves are asked for: heights, thicknesses, stresses and a limit, from the command and the scene.
 
-use dashpot_analysis::{Bound, measures::PeakAcceleration};
+use dashpot_analysis::{Bound, Limit, measures::PeakAcceleration};
 use dashpot_design::{
     cushion::{Asked, NoCushion, Platen, PoseOfThickness, Row},
     optimum::PoseScattered,
 };
 use dashpot_network::parameters::{Dimension, Kind as _};
-use dashpot_scene::{Scene, Tunables, Variation, units::si_unit};
+use dashpot_scene::{
+    Fault, Scene, Tunables, Variation, VariationFault, parse_limits,
+    units::{parse_quantity, si_unit},
+    with_units,
+};
 
 use super::CushionArguments;
 use crate::{
@@ -152,27 +156,39 @@ fn tunable(tunables: &Tunables, pad: &str) -> Result<usize, CliError> {
     })
 }
 
-/// The most that the peak may be: that of the command, or the least one of the scene.
+/// The most that the peak may be: that of the command, alone or as a limit of runs is written, or the least one of the
+/// scene.
 fn limit(
     arguments: &CushionArguments,
     scene: &Scene,
     platen: &Platen,
 ) -> Result<Option<f64>, CliError> {
+    let key = format!("{}.{}", platen.body, PeakAcceleration::KIND);
     if let Some(text) = &arguments.limit {
+        let wrong = |reason: String| CliError::WrongSetting { name: "--limit".to_owned(), reason };
+        if text.contains(['<', '>', '=']) {
+            let all = parse_limits(text).map_err(wrong)?;
+            let most = most(&all, &key).filter(|_| all.iter().all(|own| own.key == key));
+            let unlike = || wrong(format!("cushion curves are of `{key}`: write \"{key}<=50 g\""));
+            return most.ok_or_else(unlike).map(Some);
+        }
         let own = setting("--limit", text, Dimension::ACCELERATION)?;
         if own > 0.0 {
             return Ok(Some(own));
         }
-        let reason = format!("`{text}` is not above zero");
-        return Err(CliError::WrongSetting { name: "--limit".to_owned(), reason });
+        return Err(wrong(format!("`{text}` is not above zero")));
     }
-    let key = format!("{}.{}", platen.body, PeakAcceleration::KIND);
-    let own = scene.limits.iter().filter(|own| own.key == key);
+    Ok(most(&scene.limits, &key))
+}
+
+/// The least that a measure may be at most.
+fn most(limits: &[Limit], key: &str) -> Option<f64> {
+    let own = limits.iter().filter(|own| own.key == key);
     let own = own.filter_map(|own| match own.bound {
         Bound::Max(most) => Some(most),
         Bound::Min(_) => None,
     });
-    Ok(own.reduce(f64::min))
+    own.reduce(f64::min)
 }
 
 fn lengths(flag: &str, text: Option<&str>) -> Result<Option<Vec<f64>>, CliError> {
@@ -187,11 +203,25 @@ fn values(
 ) -> Result<Option<Vec<f64>>, CliError> {
     let Some(text) = text else { return Ok(None) };
     let wrong = |reason: String| CliError::WrongSetting { name: flag.to_owned(), reason };
-    let own = Variation::parse(&format!("values={text}"));
-    let own = own.map_err(|fault| wrong(fault.to_string()))?;
-    let what = dimension.named().map_or("quantity of that kind", |own| own.0);
-    if own.is_of_words() || own.dimension != Some(dimension) {
-        return Err(wrong(format!("`{text}` is no {what}: give values with a unit of one")));
+    let unlike = |fault: Fault| CliError::quantity(flag, fault);
+    let unreadable = |error| unlike(Fault::Unreadable { error, expected: dimension });
+    let own = Variation::parse(&format!("values={text}")).map_err(|fault| match fault {
+        VariationFault::BadValue { error } => unreadable(error),
+        other => wrong(other.to_string()),
+    })?;
+    if let Some(word) = own.words.first() {
+        parse_quantity(word).map_err(unreadable)?;
+    }
+    match own.dimension {
+        Some(found) if found != dimension => {
+            let text = text.to_owned();
+            return Err(unlike(Fault::WrongDimension { text, found, expected: dimension }));
+        }
+        None => {
+            let written = with_units(text, dimension);
+            return Err(wrong(format!("`{text}` has no unit: write {written}")));
+        }
+        Some(_) => {}
     }
     if own.values.iter().any(|own| !(own.is_normal() && *own > 0.0)) {
         return Err(wrong(format!("`{text}` is not above zero throughout")));

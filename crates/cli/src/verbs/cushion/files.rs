@@ -105,18 +105,20 @@ pub(super) fn table(drawn: &Drawn, out: &mut dyn io::Write) -> io::Result<()> {
 
 /// The curves of one height as the plain numbers that a figure is drawn from.
 fn series(drawn: &Drawn, height: f64) -> CushionSeries {
+    let platen = &drawn.cushion.platen;
     let of_height = |own: &&Curve| own.height.to_bits() == height.to_bits();
     CushionSeries {
         title: format!("Cushion curves, drops from {}", length(height)),
         note: title(&drawn.scene).to_owned(),
         curves: drawn.cushion.curves.iter().filter(of_height).map(curve).collect(),
         limit: drawn.wanted.asked.limit.map(|own| in_g().of(own)),
+        own: Some((in_kpa().of(platen.stress()), platen.body.clone())),
     }
 }
 
 fn curve(own: &Curve) -> CushionCurve {
     let place = |stress: f64, peak: f64| (in_kpa().of(stress), in_g().of(peak));
-    let mut points = list(own.points.iter().map(|own| {
+    let points = list(own.points.iter().map(|own| {
         let mark = match own.known {
             Known::Whole | Known::Unsolved => CushionMark::Known,
             Known::OnStop => CushionMark::OnStop,
@@ -126,12 +128,6 @@ fn curve(own: &Curve) -> CushionCurve {
         (x, y, mark)
     }));
     let best = own.best.map(|own| place(own.point.stress, own.point.peak));
-    if let Some((x, y)) = best {
-        let at = points.partition_point(|own| own.0 < x);
-        if points.get(at).is_none_or(|own| own.0 > x) {
-            points.insert(at, (x, y, CushionMark::Known));
-        }
-    }
     let floor = own.floor.map(|own| in_g().of(own));
     let later = own.points.iter().zip(&own.repeated);
     let later = list(later.map(|(own, row)| place(own.stress, row.later())));

@@ -36,12 +36,12 @@ const LABELS: usize = 11;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     dashpot cushion parcel.toml\n  \
-    dashpot cushion parcel.toml --heights \"30,60,90 cm\" --thickness \"2..10 cm,5\" \\\n    \
+    dashpot cushion parcel.toml --heights \"30,60,90 cm\" --thickness \"2..10 cm,5\" \
     --stress \"1..20 kPa,40,log\" --out curves\n  \
-    dashpot cushion parcel.toml --heights \"76 cm\" --thickness \"2..10 cm,5\" \\\n    \
+    dashpot cushion parcel.toml --heights \"76 cm\" --thickness \"2..10 cm,5\" \
     --limit \"50 g\" --over \"4..9 kPa\"\n\n\
-    The layout of ASTM D1596: a flat platen is guided onto the cushion, and its static stress,\n\
-    weight over area, is varied by its mass; the area is that of the scene. Gravity acts and the\n\
+    The layout of ASTM D1596: a flat platen is guided onto the cushion, and its static stress, \
+    weight over area, is varied by its mass; the area is that of the scene. Gravity acts and the \
     platen may leave the cushion, whether or not the scene says so.")]
 pub(crate) struct CushionArguments {
     #[command(flatten)]
@@ -61,7 +61,8 @@ pub(crate) struct CushionArguments {
     /// Static stresses, such as "1..20 kPa,40,log" [default: 40 about the best ones].
     #[arg(long, value_name = "PRESSURES")]
     stress: Option<String>,
-    /// The most that the peak may be, such as "50 g" [default: the scene's limit on the peak acceleration of the mass].
+    /// The most that the peak may be, such as "50 g" or "parcel.peak-acceleration<=50 g" [default: the scene's limit on the
+    /// peak acceleration of the mass].
     #[arg(long, value_name = "ACCELERATION")]
     limit: Option<String>,
     /// The range of static stresses over which the thinnest cushion has to keep the limit, such as "4..9 kPa".

@@ -21,7 +21,7 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
         Assumed::Separation => "separation",
     }));
     let platen = object! {
-        body: &own.body, pad: &own.pad, area: own.area, gravity: own.gravity, assumed,
+        body: &own.body, pad: &own.pad, mass: own.mass, stress: own.stress(), area: own.area, gravity: own.gravity, assumed,
     };
     let work = cushion.work;
     object! {

@@ -13,7 +13,7 @@ use super::{
     beside,
 };
 use crate::{
-    numbers::{Unit, counted, digits, quantity, rounded},
+    numbers::{Unit, constant, counted, digits, quantity, rounded},
     output::list,
     verbs::run::Line,
 };
@@ -80,25 +80,83 @@ pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
         }
     }
     if lines.is_empty() {
-        let least = drawn.cushion.curves.iter().filter_map(|own| Some((own, own.best?)));
-        let least = least.min_by(|one, other| one.1.point.peak.total_cmp(&other.1.point.peak));
-        if let Some((curve, best)) = least {
-            lines.push(Line {
-                label: "least peak",
-                text: format!(
-                    "{} from {} on {} at {}",
-                    in_g().text(best.point.peak, DIGITS),
-                    length(curve.height),
-                    length(curve.thickness),
-                    in_kpa().text(best.point.stress, DIGITS)
-                ),
-            });
-        }
+        let least = least(&drawn.cushion.curves);
+        lines.extend(least.map(|(curve, best)| Line {
+            label: "least peak",
+            text: format!(
+                "{} from {} on {} at {}",
+                in_g().text(best.point.peak, DIGITS),
+                length(curve.height),
+                length(curve.thickness),
+                in_kpa().text(best.point.stress, DIGITS)
+            ),
+        }));
     }
+    if drawn.cushion.thinnest.is_empty()
+        && let Some(limit) = drawn.wanted.asked.limit
+    {
+        lines.extend(drawn.cushion.of_heights().map(|own| of_limit(drawn, own, limit)));
+    }
+    lines.push(own_stress(drawn));
     lines.extend(drawn.batches.iter().flat_map(Batches::lines));
     lines.extend(drawn.cushion.stress_energy.as_ref().map(beside::stress_energy));
     lines.extend(drawn.cushion.creep.iter().find_map(beside::slowest));
     lines
+}
+
+/// The static stress of what falls in the scene.
+fn own_stress(drawn: &Drawn) -> Line {
+    let own = &drawn.cushion.platen;
+    let [mass, stress] = [constant(own.mass, "kg"), in_kpa().text(own.stress(), DIGITS)];
+    Line { label: "scene", text: format!("{} of {mass} has a static stress of {stress}", own.body) }
+}
+
+/// The curve with the least peak.
+fn least(curves: &[Curve]) -> Option<(&Curve, Best)> {
+    let bests = curves.iter().filter_map(|own| Some((own, own.best?)));
+    bests.min_by(|one, other| one.1.point.peak.total_cmp(&other.1.point.peak))
+}
+
+/// Whether one of the cushions keeps the limit from a height at any static stress: the thinnest one that does.
+fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
+    let height = curves.first().map_or(String::new(), |own| length(own.height));
+    let line = |label, text: String| Line {
+        label,
+        text: format!("{} from {height}: {text}", in_g().text(limit, FEW)),
+    };
+    if let Some((own, kept)) = curves.iter().find_map(|own| Some((own, own.passing?))) {
+        let [low, high] = kept.stress;
+        let (low, high) = (in_kpa().number(low, FEW), in_kpa().text(high, FEW));
+        return line("PASS", format!("{} keep it at {low} to {high}", length(own.thickness)));
+    }
+    let Some((own, Best { point, .. })) = least(curves) else {
+        let pressed =
+            format!("every drop presses {} beyond {}", drawn.cushion.platen.pad, end(drawn));
+        return line("FAIL", pressed);
+    };
+    let is_open = point.peak <= limit;
+    let error =
+        if is_open { format!(" ± {}", in_g().number(point.error, 2)) } else { String::new() };
+    let text = format!(
+        "the least peak is {}{error} on {} at {}",
+        in_g().text(point.peak, DIGITS),
+        length(own.thickness),
+        in_kpa().text(point.stress, FEW)
+    );
+    line(if is_open { "UNDECIDED" } else { "FAIL" }, text)
+}
+
+/// Beyond what the cushion is pressed where a curve is no longer known.
+fn end(drawn: &Drawn) -> &'static str {
+    let is_beyond =
+        |own: &&CushionPoint| matches!(own.known, Known::BeyondLaw | Known::PressedThrough);
+    let first = |own: &Curve| own.points.iter().find(is_beyond).map(|own| own.known);
+    let has = |known: Known| drawn.cushion.curves.iter().any(|own| first(own) == Some(known));
+    match (has(Known::BeyondLaw), has(Known::PressedThrough)) {
+        (true, false) => "the last point of its law",
+        (false, true) => "its thickness",
+        _ => "the last point of its law or its thickness",
+    }
 }
 
 fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
@@ -131,10 +189,7 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
                     format!("has {} at {}", in_g().text(peak, DIGITS), in_kpa().text(stress, FEW))
                 }
                 Unmet::Known(stress) => {
-                    format!(
-                        "is pressed beyond what is known of it at {}",
-                        in_kpa().text(stress, FEW)
-                    )
+                    format!("is pressed beyond {} at {}", end(drawn), in_kpa().text(stress, FEW))
                 }
             };
             let thickest = asked.thicknesses.last().map_or(String::new(), |own| length(*own));
@@ -166,11 +221,13 @@ pub(super) fn table(drawn: &Drawn) -> Table {
     header.extend(has_bands.then(|| "95 % of designs\ng".to_owned()));
     header.extend(has_floor.then(|| "floor\ng".to_owned()));
     header.extend(limit.map(|own| format!("at most {}\nkPa", in_g().text(own, FEW))));
+    let stress = drawn.cushion.platen.stress();
     let row = |own: &Curve| {
         let mm = |value: f64| rounded(value * 1e3, "1", DIGITS);
         let best = own.best.map_or([NONE; 4].map(str::to_owned), |own| of_best(&own));
         let floor = own.floor.map_or(NONE.to_owned(), |own| in_g().number(own, FEW));
-        let passing = limit.map(|_| own.passing.map_or(NONE.to_owned(), passing));
+        let passing =
+            limit.map(|_| own.passing.map_or(NONE.to_owned(), |own| passing(own, stress)));
         let band = batches::range(own.best_band.as_ref()).unwrap_or_else(|| NONE.to_owned());
         let first = [mm(own.height), mm(own.thickness)].into_iter().chain(best);
         let more = [has_bands.then_some(band), has_floor.then_some(floor), passing];
@@ -199,14 +256,20 @@ fn of_best(Best { point, place }: &Best) -> [String; 4] {
     ]
 }
 
-fn passing(Passing { stress, ends }: Passing) -> String {
+/// The stresses that keep the limit, with a mark where that of the scene is one of them.
+fn passing(Passing { stress, ends }: Passing, own: f64) -> String {
+    let mark = if within(stress, own) { " ✓" } else { "" };
     let [low, high] = stress.map(|own| in_kpa().number(own, FEW));
     let [before, behind] = ends.map(|own| match own {
         Reach::Limit => "",
         Reach::Range => "…",
         Reach::Known => "!",
     });
-    format!("{before}{low}–{high}{behind}")
+    format!("{before}{low}–{high}{behind}{mark}")
+}
+
+fn within([low, high]: [f64; 2], own: f64) -> bool {
+    (low..=high).contains(&own)
 }
 
 /// What is to be known of the curves, below the table.
@@ -229,7 +292,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let has =
         |place: Place| curves.iter().any(|own| own.best.is_some_and(|own| own.place == place));
     if has(Place::EndOfKnown) {
-        notes.push(format!("→ the peak falls until what is known of {pad} ends"));
+        notes.push(format!("→ the peak falls until {pad} is pressed beyond {}", end(drawn)));
     }
     if has(Place::Low) || has(Place::High) {
         notes.push("≤, ≥ the least peak may lie beyond the end of the range".to_owned());
@@ -241,14 +304,19 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         notes.push("… the range of stresses ends there, not what keeps the limit".to_owned());
     }
     if ends(Reach::Known) {
-        notes.push(format!("! what is known of {pad} ends there, before the limit"));
+        notes.push(format!("! {pad} is pressed beyond {} there, before the limit", end(drawn)));
+    }
+    let own = drawn.cushion.platen.stress();
+    if curves.iter().filter_map(|own| own.passing).any(|kept| within(kept.stress, own)) {
+        notes.push(format!("✓ the static stress of {} in the scene", drawn.cushion.platen.body));
     }
     let rows = || curves.iter().flat_map(|own| &own.repeated);
     let ended = rows().filter(|own| !own.is_known).count();
     if ended > 0 {
         notes.push(format!(
-            "{ended} of {} press {pad} beyond what is known of it: no mean is told there",
-            counted(rows().count(), "row")
+            "{ended} of {} press {pad} beyond {}: no mean is told there",
+            counted(rows().count(), "row"),
+            end(drawn)
         ));
     }
     let work = drawn.cushion.work;
@@ -276,9 +344,10 @@ fn batches_notes(drawn: &Drawn) -> Vec<String> {
     let ended = bands().filter(|own| own.without > 0).count();
     let ended = (ended > 0).then(|| {
         format!(
-            "at {ended} of {} a design presses {} beyond what is known of it: no band is told there",
+            "at {ended} of {} a design presses {} beyond {}: no band is told there",
             counted(bands().count(), "drop"),
-            drawn.cushion.platen.pad
+            drawn.cushion.platen.pad,
+            end(drawn)
         )
     });
     [solved].into_iter().chain(ended).collect()

@@ -207,7 +207,7 @@ impl Study for Answer {
         let design = best.map(|own| own.1);
         let kept = || design.into_iter().flat_map(|own| &own.kept);
         let depths = kept().filter_map(|own| {
-            let Requirement::Known(of) = &own.required.what else { return None };
+            let Requirement::Depth(of, _) = &own.required.what else { return None };
             let (test, held) = (self.test_name(own.required.test), Held::from(own));
             let (active, price) = (held.active, held.price);
             let decides = design.is_some_and(|design| design.decides(own));

@@ -118,7 +118,7 @@ pub(super) fn limits(answer: &Answer, best: &Design, number: usize) -> Option<Ch
     let (x_label, x_scale) = number_axis(own);
     let series = best.kept.iter().enumerate().filter_map(|(at, kept)| {
         let share = |value: f64| match &kept.required.what {
-            Requirement::Known(_) => Some(value),
+            Requirement::Depth(..) => Some(value),
             Requirement::Limit(limit) if limit.bound.level() != 0.0 => {
                 // One for the limit, and more beyond it, on whichever side it lies.
                 limit.bound.margin(value).map(|own| 1.0 - own)
@@ -184,7 +184,7 @@ pub(super) fn map(answer: &Answer, best: &Design) -> Option<Map> {
                 let label = format!("{} {} {bound}", what(asked, own), limit.bound.sign());
                 Some((at, if kept_on { Side::Below } else { Side::Above }, label))
             }
-            Requirement::Known(_) => Some((1.0, Side::Below, what(asked, own))),
+            Requirement::Depth(..) => Some((1.0, Side::Below, what(asked, own))),
             Requirement::Ceiling(..) => None,
         }
     };

@@ -52,22 +52,22 @@ const SECTION: Verb = Verb { name: "design", files: &[("test", scenes::file_at)]
 /// `design`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    dashpot design helmet.toml --vary \"liner.thickness=10..50 mm\" \\\n    \
+    dashpot design helmet.toml --vary \"liner.thickness=10..50 mm\" \
     --least liner.thickness --limit \"head.peak-acceleration<=250 g\"\n  \
-    dashpot design pad.toml --vary \"K=5..500 kN/m\" --vary \"C=0.1..10 kN s/m\" \\\n    \
+    dashpot design pad.toml --vary \"K=5..500 kN/m\" --vary \"C=0.1..10 kN s/m\" \
     --least head.hic15\n  \
-    dashpot design helmet.toml --vary \"T=10..50 mm\" --vary liner.material=eps,epp \\\n    \
+    dashpot design helmet.toml --vary \"T=10..50 mm\" --vary liner.material=eps,epp \
     --least T --test \"flat: drop=1.5 m\" --test \"kerb: drop=1.1 m, head.mass=6 kg\"\n  \
-    dashpot design pad.toml --vary \"pad.thickness=10..60 mm\" --least pad.thickness \\\n    \
+    dashpot design pad.toml --vary \"pad.thickness=10..60 mm\" --least pad.thickness \
     --test hot.toml --test \"cold: cold.toml, head.mass=6 kg\"\n  \
     dashpot design helmet.toml --vary \"T=10..50 mm\" --least T --and head.peak-acceleration --out front\n  \
-    dashpot design stack.toml --vary \"front.thickness=2..28 mm\" --vary \"back.thickness=2..28 mm\" \\\n    \
-    --total \"front.thickness+back.thickness=30 mm\" --vary \"front.material,back.material=soft,hard\" \\\n    \
+    dashpot design stack.toml --vary \"front.thickness=2..28 mm\" --vary \"back.thickness=2..28 mm\" \
+    --total \"front.thickness+back.thickness=30 mm\" --vary \"front.material,back.material=soft,hard\" \
     --least head.peak-acceleration\n  \
     dashpot design helmet.toml --solve-for liner.thickness --robust 95%\n\n\
-    A range is searched between its ends; a list, a range with a count, and words such as those\n\
-    of materials are tried one by one. Limits are those of the scene and of `--limit`; they have\n\
-    to be kept in every test, and no pad is pressed by more than its thickness. The section `[design]`\n\
+    A range is searched between its ends; a list, a range with a count, and words such as those \
+    of materials are tried one by one. Limits are those of the scene and of `--limit`; they have \
+    to be kept in every test, and no pad is pressed by more than its thickness. The section `[design]` \
     of a scene sets options by their names; those of the command stand above them.")]
 pub(crate) struct DesignArguments {
     #[command(flatten)]

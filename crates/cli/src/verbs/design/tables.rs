@@ -32,7 +32,7 @@ fn sensitivities(asked: &Asked, best: &Design) -> Table {
     }
     let name = |own: &Kept| match &own.required.what {
         Requirement::Limit(limit) => limit.key.clone(),
-        Requirement::Known(name) => format!("depth in {name}"),
+        Requirement::Depth(name, _) => format!("depth in {name}"),
         Requirement::Ceiling(..) => String::new(),
     };
     let shown: Vec<usize> = (0..best.kept.len())

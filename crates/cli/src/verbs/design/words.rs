@@ -1,6 +1,6 @@
 //! A design in words.
 
-use dashpot_design::optimum::{Borne, Design, Kept, Requirement, Side};
+use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Requirement, Side};
 use dashpot_units::percent;
 
 use super::{
@@ -156,7 +156,7 @@ pub(super) fn aim_text(
     }
 }
 
-/// Which test leaves the least to each requirement: `cold: head.peak-acceleration; hot: what is known of pad`.
+/// Which test leaves the least to each requirement: `cold: head.peak-acceleration; hot: thickness of pad`.
 fn decided_by(answer: &Answer, best: &Design) -> String {
     if answer.asked.tests.len() < 2 {
         return String::new();
@@ -166,11 +166,12 @@ fn decided_by(answer: &Answer, best: &Design) -> String {
     list(each.map(|own| what(&answer.asked, own))).join("; ")
 }
 
-/// What is required: `head.peak-acceleration`, `what is known of pad`, with its test where there are several.
+/// What is required: `head.peak-acceleration`, `thickness of pad`, with its test where there are several.
 pub(super) fn what(asked: &Asked, own: &Kept) -> String {
     let what = match &own.required.what {
         Requirement::Limit(limit) => limit.key.clone(),
-        Requirement::Known(name) => format!("what is known of {name}"),
+        Requirement::Depth(name, DepthOf::Thickness) => format!("thickness of {name}"),
+        Requirement::Depth(name, DepthOf::Law) => format!("range of the law of {name}"),
         Requirement::Ceiling(..) => asked.and.as_ref().map_or("", |own| own.name(asked)).to_owned(),
     };
     of_test(asked, own, what)
@@ -205,9 +206,13 @@ fn held(answer: &Answer, best: &Design, own: &Kept) -> String {
             };
             (format!("{} is at its limit{drawn_in}", what(asked, own)), limit.bound.level().abs())
         }
-        Requirement::Known(name) => {
+        Requirement::Depth(name, of) => {
             let part = percent(own.value, DIGITS);
-            (format!("{name} is pressed to {part} of what is known of it"), 1.0)
+            let whole = match of {
+                DepthOf::Thickness => "its thickness",
+                DepthOf::Law => "the range of its law",
+            };
+            (format!("{name} is pressed to {part} of {whole}"), 1.0)
         }
         Requirement::Ceiling(_, most) => (what(asked, own), most.abs()),
     };

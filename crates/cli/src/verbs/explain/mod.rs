@@ -36,7 +36,7 @@ const MOST: usize = 20;
 #[command(after_help = "Examples:\n  \
     dashpot explain                                  the built-in reference impact\n  \
     dashpot explain pad.toml --out pad.svg           the drawing as a file, too\n  \
-    dashpot explain pad.toml --verbose               unknowns, modes and guards, too")]
+    dashpot explain pad.toml --verbose               unknowns, modes and guards")]
 pub(crate) struct ExplainArguments {
     #[command(flatten)]
     scene: SceneArguments,

@@ -35,7 +35,7 @@ const DIGITS: usize = 6;
 /// `groups`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
-    dashpot groups                                   of the built-in reference impact\n  \
+    dashpot groups                                   the built-in reference impact\n  \
     dashpot groups real.toml test.toml               are they similar?\n  \
     dashpot groups real.toml --lab \"mass=1 kg, speed=2 m/s, thickness=5 mm\" --out lab.toml\n  \
     dashpot groups --from \"a=26.6, b=66.66, c=8, d=80\" --out groups.toml\n\n\

@@ -272,6 +272,11 @@ impl Units {
             .replace("deformation", "strain")
             .replace("force", "stress")
     }
+
+    /// The same for people: of what is taken up on the way out only a part is absorbed.
+    fn label(self, name: &str) -> String {
+        self.word(if name == "energy absorbed" { "energy taken up" } else { name })
+    }
 }
 
 impl Study for Tested {

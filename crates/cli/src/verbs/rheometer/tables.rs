@@ -82,7 +82,7 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
     let (has_model, has_error) = (is(|own| own.model.is_some()), is(|own| own.error.is_some()));
     let has_computed = is(|own| own.computed.is_some());
     let rows = figures.iter().filter(|figure| figure.note.is_none()).map(|figure| {
-        let mut row = vec![units.word(figure.name)];
+        let mut row = vec![units.label(figure.name)];
         row.extend(has_model.then(|| value(figures, figure, figure.model, None, units)));
         row.extend(
             has_computed.then(|| value(figures, figure, figure.computed, figure.error, units)),
@@ -112,7 +112,7 @@ pub(super) fn side_by_side(tests: &[Made], common: usize, units: Units) -> Table
                 (None, None) => value(own, figure, figure.model, None, units),
             }
         };
-        [units.word(name)].into_iter().chain(all.iter().map(cell)).collect()
+        [units.label(name)].into_iter().chain(all.iter().map(cell)).collect()
     });
     let labels = tests.iter().map(|made| made.label.as_str());
     let header: Vec<&str> = [""].into_iter().chain(labels).collect();
@@ -152,7 +152,7 @@ fn error(own: &Figure, units: Units) -> String {
 pub(super) fn missing(figures: &[Figure], units: Units) -> Vec<String> {
     let sentence = |figure: &Figure| {
         let note = figure.note?;
-        Some(format!("no {}: {note}", units.word(figure.name)))
+        Some(format!("no {}: {note}", units.label(figure.name)))
     };
     figures.iter().filter_map(sentence).collect()
 }

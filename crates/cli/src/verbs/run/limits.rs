@@ -84,7 +84,7 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         let designs = judged.chance.map_or(0, |own| own.beyond);
         let are = if designs == 1 { "is" } else { "are" };
         let designs = counted(designs, "design");
-        return Some(format!("{designs} of the sample {are} pressed beyond what is known"));
+        return Some(format!("{designs} of the sample {are} pressed beyond a law or a thickness"));
     };
     let what = match warning {
         Warning::BeyondLaw(own) => format!(

@@ -86,12 +86,12 @@ const LABELS: usize = 15;
     dashpot run pad.toml --accuracy 0.01%            more digits\n  \
     dashpot run pad.toml --neglect 0.5%              without what matters less\n  \
     dashpot run pad.toml --limit \"head.hic15<=700\"   pass, fail, or undecided\n  \
-    dashpot run pad.toml --floor                     what no pad can beat\n\
-    dashpot run pad.toml --sample 2000               numbers with scatter: more designs\n  \
+    dashpot run pad.toml --floor                     what no pad can beat\n  \
+    dashpot run pad.toml --sample 2000               designs of what scatters\n  \
     dashpot run pad.toml --measured drop.csv         beside a measured curve\n  \
     dashpot run pad.toml --out results               CSV, JSON, SVG and HTML\n  \
     dashpot run pad.toml --out results --write page  the page alone\n  \
-    dashpot run pad.toml --at \"5 ms, 20 ms\"         every output at these times\n  \
+    dashpot run pad.toml --at \"5 ms, 20 ms\"          every output at these times\n  \
     dashpot run pad.toml --json | jq .runs[0].measures\n\n\
     Units: --accuracy and --neglect are relative (0.1%, 1e-3), --rtol a number; all values of --json are SI.")]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]

@@ -167,11 +167,16 @@ impl Words<'_> {
         let amount = self.shown(taken_up.measure, value);
         let Some(supply) = &taken_up.supply else { return format!("{name} takes up {amount}") };
         let (kinetic, work) = (supply.kinetic, supply.work);
+        // What rests on springs at the start may be given to the pad as well.
+        let is_told = |part: f64| part <= 1.0 + LITTLE && part.abs() > ZERO;
+        let is_zero = self.zeros.has(taken_up.measure);
+        let told = |part: f64| {
+            if is_told(part) && !is_zero { format!(" ({})", share(part)) } else { String::new() }
+        };
         if kinetic <= LITTLE * work {
             // What falls begins without energy, or with what little its layers hold at rest.
             let whole = rounded(work, "J", TIME_DIGITS);
-            let part =
-                if value <= work { format!(" ({})", share(value / work)) } else { String::new() };
+            let part = told(value / work);
             return format!("{name} takes up {amount} of {whole} put in{part}");
         }
         let whole = rounded(kinetic, "J", DIGITS);
@@ -185,14 +190,7 @@ impl Words<'_> {
         } else {
             String::new()
         };
-        let part = value / (kinetic + work.max(0.0));
-        // What rests on springs at the start may be given to the pad as well.
-        let is_told = part <= 1.0 + LITTLE && part.abs() > ZERO;
-        let part = if is_told && !self.zeros.has(taken_up.measure) {
-            format!(" ({})", share(part))
-        } else {
-            String::new()
-        };
+        let part = told(value / (kinetic + work.max(0.0)));
         format!("{name} takes up {amount} of {whole}{added}{part}")
     }
 

@@ -13,7 +13,6 @@ use std::path::PathBuf;
 use clap::Args;
 use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::units::parse_quantity;
 use dashpot_signal::{Analysis, Approach, Cfc, Channel, Padding, Removal, Settings};
 use serde::Serialize;
 
@@ -25,6 +24,7 @@ use crate::{
     args::{frequency_class, paddings, shift},
     error::{CliError, Status},
     folder::{Folder, Staged},
+    input::{argument, setting},
     output::{Study, Text, emit},
     progress::Bar,
     terminal::{Terminal, note},
@@ -101,13 +101,12 @@ pub(crate) struct SignalArguments {
 }
 
 fn frequency(text: &str) -> Result<f64, String> {
-    let found = crate::input::setting("rate", text, Dimension::FREQUENCY);
-    let found = found.map_err(|error| error.to_string())?;
+    let found = argument("rate", text, Dimension::FREQUENCY)?;
     if found > 0.0 { Ok(found) } else { Err("a rate is positive, such as \"20 kHz\"".to_owned()) }
 }
 
 fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let found = crate::input::setting(name, text, dimension).map_err(|error| error.to_string())?;
+    let found = argument(name, text, dimension)?;
     if found > 0.0 { Ok(found) } else { Err("it must be positive".to_owned()) }
 }
 
@@ -150,7 +149,7 @@ impl SignalArguments {
         let offset = match self.offset.as_deref().map(str::trim) {
             None => Removal::Nothing,
             Some("auto") => Removal::Found,
-            Some(text) => Removal::Given(offset(text, dimension)?),
+            Some(text) => Removal::Given(setting("--offset", text, dimension)?),
         };
         let window = (self.from.is_some() || self.to.is_some())
             .then(|| (self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)));
@@ -169,22 +168,6 @@ impl SignalArguments {
                 gravity: if self.falls { STANDARD_GRAVITY } else { 0.0 },
             }),
         })
-    }
-}
-
-/// An offset in the unit of what is measured.
-fn offset(text: &str, dimension: Dimension) -> Result<f64, CliError> {
-    let wrong = |reason: String| CliError::WrongSetting { name: "--offset".to_owned(), reason };
-    let found = parse_quantity(text).map_err(|error| wrong(error.to_string()))?.meant(dimension);
-    match found.dimension {
-        Some(own) if own == dimension => Ok(found.value),
-        None if found.value == 0.0 => Ok(0.0),
-        _ => {
-            let unit = dashpot_units::si_unit(dimension);
-            Err(wrong(format!(
-                "`{text}` is not in a unit of the channel: write it with one, as in \"0.3 {unit}\", or `auto`"
-            )))
-        }
     }
 }
 

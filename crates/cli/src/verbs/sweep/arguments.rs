@@ -27,7 +27,7 @@ use crate::{
     dashpot sweep pad.toml --vary \"K=5..30 MN/m,26,log\"\n  \
     dashpot sweep --vary \"head.velocity=2..12 m/s\" --measure padding.peak-force\n  \
     dashpot sweep pad.toml --points designs.csv\n  \
-    dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \\\n    \
+    dashpot sweep --vary \"padding.maxwell.spring=5..80 MN/m,41,log\" \
     --vary \"padding.kelvin.dashpot=1..16 kN s/m,41,log\" --out map\n  \
     dashpot sweep helmet.toml --vary liner.material=eps,epp,vn --vary \"drop=0.5..2 m\"\n  \
     dashpot sweep pad.toml --gradient K,head.mass\n  \
