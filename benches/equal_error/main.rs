@@ -49,14 +49,20 @@ fn main() -> Result<(), String> {
         return Ok(());
     }
     let cvode = cvode::installed()?;
-    let mut text = String::new();
+    let (mut text, mut faults) = (String::new(), Vec::new());
     for problem in problems::all()? {
         if words.iter().all(|word| problem.title.contains(word.as_str())) {
-            let untold = |why| format!("**{}.** {why}\n", problem.title);
-            let table = table(&problem, cvode).unwrap_or_else(untold);
-            println!("{table}");
-            let _ = write!(text, "\n{table}");
+            match table(&problem, cvode) {
+                Ok(table) => {
+                    println!("{table}");
+                    let _ = write!(text, "\n{table}");
+                }
+                Err(why) => faults.push(format!("{}: {why}", problem.title)),
+            }
         }
+    }
+    if !faults.is_empty() {
+        return Err(faults.join("\n"));
     }
     if std::env::var_os("UPDATE_DOCS").is_some() && words.is_empty() {
         update(&text)?;

@@ -137,7 +137,8 @@ pub(crate) fn follow<const N: usize>(
             slopes[at + 1] = scene.rates(&next);
         }
         let off = combined(&[0.0; N], &slopes, &ERROR, length);
-        let error: f64 = off.iter().zip(sizes).map(|(off, size)| (off / (rtol * size)).powi(2)).sum();
+        let error: f64 =
+            off.iter().zip(sizes).map(|(off, size)| (off / (rtol * size)).powi(2)).sum();
         let error = (error / counted).sqrt();
         let factor = (0.9 * error.max(1e-10).powf(-0.2)).clamp(0.2, 5.0);
         if error > 1.0 {

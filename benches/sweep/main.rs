@@ -2,7 +2,8 @@
 //!
 //! `cargo bench --bench sweep` prints the CPU time of a scene on one core, as a ratio to that by hand. By hand a
 //! scene of the reference impact is a matrix exponential and 500 products with it, after each of which force and
-//! deformation are looked at; it finds the largest sample, ours the largest value. Impacts that are not linear are by hand in `explicit`.
+//! deformation are looked at; it finds the largest sample, ours the largest value. Impacts that are not linear are by
+//! hand in `explicit`.
 #![expect(
     clippy::expect_used,
     clippy::print_stdout,

@@ -83,7 +83,11 @@ impl Run<'_> {
                     scenes: 1,
                     solve: Box::new(|| (self.by_hand)(by_hand)[0]),
                 },
-                Contender { name: "with errors", scenes: 1, solve: Box::new(|| measured(&full)[0]) },
+                Contender {
+                    name: "with errors",
+                    scenes: 1,
+                    solve: Box::new(|| measured(&full)[0]),
+                },
                 Contender {
                     name: "without errors",
                     scenes: 1,

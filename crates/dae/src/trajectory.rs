@@ -108,8 +108,8 @@ pub trait Dense: Debug + Send + Sync {
         None
     }
 
-    /// Gives back memory that was taken so that further signals are quicker, and takes little from now on; they are as
-    /// good without. What other solutions share stays.
+    /// Gives back memory that was taken so that further signals are quicker; they are as good without. Before the first
+    /// signal it says that little is to be taken. What other solutions share stays.
     fn forget(&self) {}
 
     /// Shares what it has alike with other solutions of the same run, bit by bit.

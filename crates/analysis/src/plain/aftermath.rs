@@ -5,7 +5,7 @@ use dashpot_numerics::small::dot;
 
 use super::{
     energies::stored_at_most,
-    stepped::{Course, Nodes, Stepped, Track},
+    stepped::{Course, Nodes, Stepped, Track, is_outside},
 };
 
 /// What is left to dissipate, in parts of the energy of the impact and of the tolerance, is of no
@@ -13,6 +13,8 @@ use super::{
 const LITTLE: f64 = 1e-3;
 /// What strikes meets the pad again where it comes as near as this, in parts of the largest deformation.
 const NEAR: f64 = 1e-3;
+/// Parts of a step at which that is looked at.
+const PLACES: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 /// It may seem to be in the pad by so much of that.
 const ROUNDING: f64 = 1e-6;
 
@@ -46,7 +48,7 @@ impl Flight {
 }
 
 /// Follows a pad that is `released` from some unknowns on for the dimensionless time `left`, at a tolerance. `None`
-/// where it cannot be followed, or meets again what has left it.
+/// where it cannot be followed, a law leaves its range, or it meets again what has left it.
 pub(super) fn follow<const N: usize>(
     (released, numbers): (&ParametricSystem, &[f64]),
     assembly: &Assembly,
@@ -66,15 +68,24 @@ pub(super) fn follow<const N: usize>(
         masses.is_empty() && stored_at_most(assembly, &parts, last) <= LITTLE * rtol * energy
     };
     let track = stepped.settle(from, rtol, &is_over)?;
+    if track.nodes().any(|z| instance.curves.iter().any(|curve| is_outside(curve, z))) {
+        return None;
+    }
     let (face, time) = (released.speed_of_face(&instance), released.time_scale());
     let (mut way, mut at) = (0.0, 0.0);
     for step in &track.steps {
         let panel = step.panel(&|z| dot(&face, z));
-        way += panel.integral() * time;
-        at = panel.end * time;
-        if way - flight.way(at) < -ROUNDING * course.deepest.value {
-            return None;
+        // Where no mass swings, nothing comes back within a step.
+        let looks = if masses.is_empty() { &[1.0][..] } else { &PLACES };
+        for part in looks {
+            at = if *part < 1.0 { panel.start + part * panel.length() } else { panel.end };
+            let gone = panel.part(panel.start, at).integral() * time;
+            at *= time;
+            if way + gone - flight.way(at) < -ROUNDING * course.deepest.value {
+                return None;
+            }
         }
+        way += panel.integral() * time;
     }
     let end = left * time;
     let is_away = way - flight.way(end) > NEAR * course.deepest.value;

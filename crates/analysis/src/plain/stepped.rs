@@ -318,7 +318,7 @@ impl Seen {
 }
 
 /// Whether a law does not hold where it is.
-fn is_outside<const N: usize>(curve: &CurveRow<N>, z: &[f64; N]) -> bool {
+pub(super) fn is_outside<const N: usize>(curve: &CurveRow<N>, z: &[f64; N]) -> bool {
     let place = dot(&curve.deformation, z);
     curve.law.range().is_some_and(|(from, to)| {
         let room = if from.is_finite() { BEYOND * (to - from) } else { 0.0 };

@@ -267,7 +267,7 @@ impl From<NoCushion> for CliError {
 
 fn interrupted(kept: usize, of: usize, path: &Path) -> String {
     match kept {
-        0 => format!("interrupted before the first file was whole: nothing is kept of {of} points"),
+        0 => format!("interrupted before the first file was whole: none of {of} points is kept"),
         kept => format!("interrupted: {kept} of {of} points are kept in `{}`", path.display()),
     }
 }
@@ -370,7 +370,7 @@ mod tests {
             (own.to_string(), own.help())
         };
         let (text, help) = told(0);
-        assert!(text.ends_with("nothing is kept of 10000 points") && help.is_none(), "{text}");
+        assert!(text.ends_with("none of 10000 points is kept") && help.is_none(), "{text}");
         let (text, help) = told(4096);
         assert_eq!(text, "interrupted: 4096 of 10000 points are kept in `pts`");
         assert!(help.is_some());

@@ -15,6 +15,8 @@ use crate::Budget;
 
 /// Most modes of a system whose outputs share panels: with many, few outputs need what the others do.
 pub(super) const MOST_MODES: usize = 16;
+/// Most spans of a run whose panels are shared, as these are kept.
+pub(super) const MOST_SPANS: usize = 64;
 /// Most panels of a span that are shared.
 const MOST: usize = 64;
 /// By how much a panel may be wider than the one before, and part of the width that its bound allows.
@@ -64,8 +66,8 @@ impl Stations {
         rows: &[Told],
     ) -> Option<Self> {
         let is_moving = |block: &Block| block.weight > 0.0 && block.moves(start);
-        let is_told = |block| !is_moving(block) || is_told(block);
-        if length == 0.0 || !modes.blocks.iter().all(is_told) {
+        let is_bounded = |block| !is_moving(block) || is_told(block);
+        if length == 0.0 || !modes.blocks.iter().all(is_bounded) {
             return None;
         }
         let bounds_at = |width: f64| -> Vec<Bounds> {
@@ -73,6 +75,7 @@ impl Stations {
                 |block| if is_moving(block) { Bounds::of(block, width) } else { Bounds::None };
             modes.blocks.iter().map(own).collect()
         };
+        let powers: u64 = modes.blocks.iter().map(|block| block.cost(length)).sum();
         let (mut all, mut at, mut width) = (Vec::new(), 0.0, length);
         while at < length && all.len() < MOST {
             let coordinates = coordinates_at(modes, start, at);
@@ -94,6 +97,9 @@ impl Stations {
                 }
                 width *= factor(excess).max(1.0 / WIDER);
             };
+            if budget.charge(powers) || budget.charge_step(modes.len()) {
+                return None;
+            }
             let end = if width < length - at { at + width } else { length };
             let curves = curves(modes, &coordinates, end - at);
             all.push(Station { start: at, end, sizes, bounds, curves });
@@ -113,7 +119,7 @@ impl Stations {
         tally: &mut Tally,
         pieces: &mut Vec<Piece>,
     ) -> Option<()> {
-        let mut own = tally.clone();
+        let mut own = *tally;
         let before = pieces.len();
         for station in &self.all {
             let local = row.size_at(&station.sizes);

@@ -6,7 +6,7 @@ use super::{
     Augmented, Complex,
     augmented::Span,
     block::Block,
-    common::{Common, MOST_MODES, Stations, Told},
+    common::{Common, MOST_MODES, MOST_SPANS, Stations, Told},
     coordinates::{SpanCoordinates, follow},
     decomposition::{Form, Shared, decompose},
     decoupling::CAUTIONS,
@@ -106,7 +106,7 @@ impl Solution {
     fn shared_by_all(&self, system: &System) -> Option<Arc<Common>> {
         let Modal { form, spans } = self.modal();
         let modes = &form.modes;
-        if modes.len() > MOST_MODES {
+        if modes.len() > MOST_MODES || spans.len() > MOST_SPANS {
             return None;
         }
         let row = |output| self.row(&self.system.form(system.outputs.at(output)));

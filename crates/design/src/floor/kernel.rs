@@ -9,8 +9,10 @@ use super::HIC_EXPONENT;
 
 /// A time is cut into so many pieces at least, and where windows of impulse begin.
 const PIECES: usize = 8;
-/// More pieces are not told apart.
+/// Where a time has more windows, their impulse is bounded by a line.
 const MOST: usize = 512;
+/// The most of `x^0.6 − x` for `x` from 0 to 1 is 0.1859, at `0.6^2.5`.
+const ABOVE: f64 = 0.186;
 /// The power of its length with which the impulse of a window grows, of one value of the head injury criterion.
 const GROWTH: f64 = 1.0 - 1.0 / HIC_EXPONENT;
 
@@ -63,18 +65,21 @@ impl Kernel {
             Self::Moving(own) => own,
         };
         let window = cap.min(time);
-        let length = (window / (PIECES as f64 * window / time).ceil()).max(time / MOST as f64);
+        let is_followed = window >= time / MOST as f64;
+        let parts = if is_followed { (PIECES as f64 * window / time).ceil() } else { 1.0 };
+        let length = if is_followed { window / parts } else { time / PIECES as f64 };
+        let most = |since: f64| if is_followed { paced(since, cap) } else { evenly(since, cap) };
         // By x⁵ in place of the time since a piece began a power 0.6 of it is smooth.
         let piece = |from: f64| {
             let inner = |x: f64| {
                 let since = from + x.powi(5);
-                5.0 * x.powi(4) * paced(since, cap) * own.slope(time - since).abs()
+                5.0 * x.powi(4) * most(since) * own.slope(time - since).abs()
             };
             integral(inner, 0.0, (time - from).clamp(0.0, length).powf(0.2))
         };
         let starts = successors(Some(0.0), |at| Some(at + 1.0)).map(|at: f64| at * length);
         let pieces = starts.take_while(|from| *from < time).map(piece);
-        own.value(0.0).abs() * paced(time, cap) + pieces.sum::<f64>()
+        own.value(0.0).abs() * most(time) + pieces.sum::<f64>()
     }
 }
 
@@ -82,6 +87,11 @@ impl Kernel {
 fn paced(since: f64, cap: f64) -> f64 {
     let whole = (since / cap).floor();
     whole * cap.powf(GROWTH) + (since - whole * cap).max(0.0).powf(GROWTH)
+}
+
+/// A line that is above it: by the most of `x^0.6 − x`, with `x` in parts of a window.
+fn evenly(since: f64, cap: f64) -> f64 {
+    cap.powf(GROWTH) * (since / cap + ABOVE)
 }
 
 /// Its integral from the start.

@@ -166,17 +166,17 @@ fn limit(
     let key = format!("{}.{}", platen.body, PeakAcceleration::KIND);
     if let Some(text) = &arguments.limit {
         let wrong = |reason: String| CliError::WrongSetting { name: "--limit".to_owned(), reason };
+        let low = || wrong(format!("`{text}` is not above zero"));
         if text.contains(['<', '>', '=']) {
             let all = parse_limits(text).map_err(wrong)?;
             let most = most(&all, &key).filter(|_| all.iter().all(|own| own.key == key));
-            let unlike = || wrong(format!("cushion curves are of `{key}`: write \"{key}<=50 g\""));
-            return most.ok_or_else(unlike).map(Some);
+            let unlike =
+                || wrong(format!("cushion curves have a most of `{key}`: write \"{key}<=50 g\""));
+            let own = most.ok_or_else(unlike)?;
+            return if own > 0.0 { Ok(Some(own)) } else { Err(low()) };
         }
         let own = setting("--limit", text, Dimension::ACCELERATION)?;
-        if own > 0.0 {
-            return Ok(Some(own));
-        }
-        return Err(wrong(format!("`{text}` is not above zero")));
+        return if own > 0.0 { Ok(Some(own)) } else { Err(low()) };
     }
     Ok(most(&scene.limits, &key))
 }

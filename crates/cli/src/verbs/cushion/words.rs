@@ -79,7 +79,7 @@ pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
             add(label, text);
         }
     }
-    if lines.is_empty() {
+    if drawn.cushion.thinnest.is_empty() {
         let least = least(&drawn.cushion.curves);
         lines.extend(least.map(|(curve, best)| Line {
             label: "least peak",
@@ -129,19 +129,27 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
         let (low, high) = (in_kpa().number(low, FEW), in_kpa().text(high, FEW));
         return line("PASS", format!("{} keep it at {low} to {high}", length(own.thickness)));
     }
-    let Some((own, Best { point, .. })) = least(curves) else {
+    let Some((own, Best { point, place, .. })) = least(curves) else {
         let pressed =
             format!("every drop presses {} beyond {}", drawn.cushion.platen.pad, end(drawn));
         return line("FAIL", pressed);
     };
-    let is_open = point.peak <= limit;
-    let error =
-        if is_open { format!(" ± {}", in_g().number(point.error, 2)) } else { String::new() };
+    // The least peak may lie beyond the stresses, or within the error of what was found.
+    let is_end = |place: Place| matches!(place, Place::Low | Place::High);
+    let is_at_end = |own: &Curve| own.best.is_some_and(|own| is_end(own.place));
+    let error = if point.error.is_finite() { point.error } else { 0.0 };
+    let is_open = point.peak - error <= limit || curves.iter().any(is_at_end);
+    let error = if is_open && error > 0.0 {
+        format!(" ± {}", in_g().number(error, 2))
+    } else {
+        String::new()
+    };
     let text = format!(
-        "the least peak is {}{error} on {} at {}",
+        "the least peak is {}{error} on {} at {}{}",
         in_g().text(point.peak, DIGITS),
         length(own.thickness),
-        in_kpa().text(point.stress, FEW)
+        in_kpa().text(point.stress, FEW),
+        if is_end(place) { ", where the range ends" } else { "" }
     );
     line(if is_open { "UNDECIDED" } else { "FAIL" }, text)
 }

@@ -1,10 +1,11 @@
-//! The two evaluations, which share no arithmetic, against each other on scenes of all sorts.
+//! The two evaluations, which share no arithmetic, against each other on scenes of all sorts, and outputs that share
+//! panels against those on panels of their own.
 
 use dashpot_numerics::chebyshev;
 
 use super::{Scene, Sequence, Solved};
 use crate::{
-    Budget, Piece, Waveform,
+    Budget, Dense, Piece, Waveform,
     exact::{
         Augmented, Solution,
         coordinates::follow,
@@ -76,8 +77,16 @@ fn compare(solved: &Solved, allowed: f64) {
     let size = solved.system.len();
     let signals: Vec<_> = (0..size).map(|output| solved.signal(output)).collect();
     let scale = signals.iter().fold(0.0_f64, |scale, signal| scale.max(signal.bound()));
+    let apart = marched.apart();
     for (output, signal) in signals.iter().enumerate() {
         let error = signal.error.unwrap();
+        // On panels of its own it is the same, within the errors of both.
+        let alone = apart.signal(&solved.system, output);
+        let room = error + alone.error.unwrap();
+        for &t in &times {
+            let off = (alone.value(t) - signal.value(t)).abs();
+            assert!(off <= room, "output {output} at {t:e}: {off:e} beside {room:e}");
+        }
         assert!(error <= allowed * scale, "stated error {error:e} at a scale of {scale:e}");
         for (k, &t) in times.iter().enumerate() {
             let off = samples[k * size + output] - signal.value(t);

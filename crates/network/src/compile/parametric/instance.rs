@@ -8,7 +8,8 @@ use super::{
 };
 
 /// The system of one network: `ż = A z` in dimensionless time, padded with zeros to `N` unknowns. Behind the
-/// unknowns stands the number 1 where constant forces act, and the force of each law that is not linear.
+/// unknowns stands the number 1 where constant forces act, the force of each law that is not linear, and the speed of a
+/// face that springs alone hold.
 #[derive(Debug, Clone)]
 pub struct Instance<const N: usize> {
     /// `A` by its columns.
@@ -116,12 +117,11 @@ impl ParametricSystem {
             let other = if a == self.face { b } else { a };
             let mut speed = instance.velocity[other];
             speed.iter_mut().zip(&self.scales).for_each(|(own, scale)| *own *= scale);
-            match part.kind {
-                PartKind::Curve(slot) => own.curves.push((slot, speed)),
-                _ => {
-                    own.stiffness += numbers[part.number];
-                    add(&mut own.pull, numbers[part.number], &speed);
-                }
+            if let PartKind::Curve(slot) = part.kind {
+                own.curves.push((slot, speed));
+            } else {
+                own.stiffness += numbers[part.number];
+                add(&mut own.pull, numbers[part.number], &speed);
             }
         }
         own

@@ -90,7 +90,7 @@ struct Weighed {
 /// as it is until what strikes is let go.
 ///
 /// It covers networks that are at rest but for one impactor, which touches a single element: no loads, layers
-/// or given motions, no place that springs alone hold, no other effects than constant forces on masses and
+/// or given motions, no place that springs alone hold but a face that has been let go, no other effects than constant forces on masses and
 /// the opening of that element.
 #[derive(Debug, Clone)]
 pub struct ParametricSystem {
