@@ -177,8 +177,7 @@ fn on_a_panel(mount: Model) -> Network {
 
 #[test]
 fn a_face_that_springs_alone_hold_is_followed_by_their_balance() {
-    let dashpot = || part(Dashpot { damping: 1e4 });
-    let mount = Tree::parallel([part(Spring { stiffness: 5e7 }), dashpot()]);
+    let mount = Tree::parallel([part(Spring { stiffness: 5e7 }), part(Dashpot { damping: 1e4 })]);
     let (network, settings) = (on_a_panel(mount), SolveSettings::lasting(0.02));
     let own = run(&network, &settings);
     assert!(is_plain(&own));
@@ -188,7 +187,7 @@ fn a_face_that_springs_alone_hold_is_followed_by_their_balance() {
     }
     // Behind the release the mount leaves the range of its law, of which the other way warns.
     let law = TableSpring::new(vec![(-8e-3, -4e3), (0.0, 0.0), (8e-3, 4e3)]).unwrap();
-    let network = on_a_panel(Tree::parallel([part(law), dashpot()]));
+    let network = on_a_panel(Tree::parallel([part(law), part(Dashpot { damping: 1e3 })]));
     let own = run(&network, &SolveSettings::lasting(0.05));
     let mut warnings = own.warnings.iter();
     let is_beyond = |own: &Warning| matches!(own, Warning::BeyondLaw(_));

@@ -138,8 +138,9 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
     let is_end = |place: Place| matches!(place, Place::Low | Place::High);
     let is_at_end = |own: &Curve| own.best.is_some_and(|own| is_end(own.place));
     let error = if point.error.is_finite() { point.error } else { 0.0 };
-    let is_open = point.peak - error <= limit || curves.iter().any(is_at_end);
-    let error = if is_open && error > 0.0 {
+    let is_near = point.peak - error <= limit;
+    let is_open = is_near || curves.iter().any(is_at_end);
+    let error = if is_near && error > 0.0 {
         format!(" ± {}", in_g().number(error, 2))
     } else {
         String::new()
