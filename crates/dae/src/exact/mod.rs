@@ -7,13 +7,12 @@
 //! - the propagator ([`propagator`]): `z_{k+1} = e^{Ā Δt} z_k` on uniform grids;
 //! - the modal form ([`modes`]): `z(t) = X e^{D t} X⁻¹ z(0)` with block-diagonal `D`, which gives
 //!   every output as a sum of modes and from it, with a rigorous bound of the interpolation error,
-//!   a piecewise polynomial ([`panels`], which outputs of small systems share, [`common`]).
+//!   a piecewise polynomial ([`panels`], which outputs of small systems share, [`stations`]).
 
 mod augmented;
 mod balance;
 mod block;
 mod bounds;
-mod common;
 mod components;
 mod coordinates;
 mod decomposition;
@@ -26,6 +25,7 @@ mod propagator;
 mod refinement;
 mod schur;
 mod solution;
+mod stations;
 mod tables;
 
 #[cfg(test)]

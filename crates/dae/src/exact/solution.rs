@@ -6,7 +6,6 @@ use super::{
     Augmented, Complex,
     augmented::Span,
     block::Block,
-    common::{Common, MOST_MODES, MOST_SPANS, Stations, Told},
     coordinates::{SpanCoordinates, follow},
     decomposition::{Form, Shared, decompose},
     decoupling::CAUTIONS,
@@ -14,6 +13,7 @@ use super::{
     modes::Modes,
     panels::{Piece, Tally, interpolate},
     propagator::{Grid, advance, drifts, propagate},
+    stations::{Common, MOST_MODES, MOST_SPANS, Stations, Told},
 };
 use crate::{Budget, Dense, Panel, Signal, System};
 
