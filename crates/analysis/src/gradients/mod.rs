@@ -38,7 +38,9 @@ const TIGHTER: f64 = 1e-3;
 const TIGHTEST: f64 = 1e-13;
 /// Errors of stepping methods in parts of their tolerance.
 const ERRORS_PER_TOLERANCE: f64 = 1e2;
-/// Below this relative error no better one is looked for.
+/// Below this relative error, which is twice the true one beside a graze, a solution to each side is enough, …
+const SURE: f64 = 2e-8;
+/// … and below this no better one is looked for by smaller steps.
 const GOOD: f64 = 1e-7;
 
 /// How the neighbours of a run are solved.
@@ -52,7 +54,9 @@ impl Plan {
     /// As the run was, but once and at a tighter tolerance.
     fn of(settings: &SolveSettings, run: &RunReport) -> Self {
         let rtol = run.solver.rtol.map(|rtol| (TIGHTER * rtol).max(TIGHTEST));
-        let method = Choice::named(run.solver.method).unwrap_or_else(|_| settings.method.clone());
+        // What is chosen for a run may be given up beside it: other methods are chosen there anew.
+        let method = if rtol.is_none() { Choice::named(run.solver.method).ok() } else { None };
+        let method = method.unwrap_or_else(|| settings.method.clone());
         let settings = SolveSettings { method, rtol, estimate: false, ..settings.clone() };
         let steps = rtol.map_or(EXACT_STEPS, |rtol| {
             let step = (ERRORS_PER_TOLERANCE * rtol).cbrt().clamp(NARROWEST, WIDEST);
@@ -75,7 +79,7 @@ impl Plan {
 /// these numbers.
 ///
 /// It takes the run itself and two solutions for each number by the exact method; four, and one more for all,
-/// by others and where the first two do not pass the same events and peaks.
+/// by others and where the first two do not pass the same events and peaks, or are too near a graze.
 ///
 /// # Examples
 ///
@@ -173,37 +177,47 @@ impl Search<'_> {
 
     /// Whether a smaller step may give a better derivative.
     fn is_open(&self, own: &Result<Derivative, NoDerivative>) -> bool {
-        match own {
-            Ok(own) => self.plan.is_exact && own.relative_error > GOOD,
-            Err(own) => !matches!(own, NoDerivative::NoValue { .. }),
-        }
+        is_above(GOOD, own) && (self.plan.is_exact || own.is_err())
     }
 
     /// The derivatives with respect to these numbers by steps of this part of them, and how many solutions they took.
     fn at(&self, numbers: &[usize], step: f64) -> (Vec<Found>, usize) {
         let outer = self.solved(numbers, step);
-        let is_wide = |sides: &[Neighbour; 2]| {
-            !self.is_sharp || !sides.iter().all(|own| own.is_like(&self.here))
+        let is_close = |(number, sides): (usize, &[Neighbour; 2])| {
+            self.is_sharp
+                && sides.iter().all(|own| own.is_like(&self.here))
+                && !self.beside(number, step, sides, None).iter().any(|own| is_above(SURE, own))
         };
-        let wide: Vec<bool> = outer.iter().map(is_wide).collect();
+        let pairs = || numbers.iter().copied().zip(&outer);
+        let close: Vec<bool> = pairs().map(is_close).collect();
         let of_inner: Vec<usize> =
-            numbers.iter().zip(&wide).filter(|own| *own.1).map(|own| *own.0).collect();
+            numbers.iter().zip(&close).filter(|own| !*own.1).map(|own| *own.0).collect();
         let mut inner = self.solved(&of_inner, 0.5 * step).into_iter();
-        let all = numbers.iter().zip(&outer).zip(wide).map(|((number, sides), is_wide)| {
-            let near = if is_wide { inner.next() } else { None };
-            let Self { run, here, .. } = self;
-            let value = self.numbers[*number].value;
-            let steps_error = self.plan.settings.rtol.map(|rtol| ERRORS_PER_TOLERANCE * rtol);
-            let near = near.as_ref();
-            let beside = Beside { run, here, sides, near, number: value, step, steps_error };
-            let accuracy = |at: usize| {
-                let all = &self.plan.settings.accuracy;
-                self.keys.get(at).map_or(all.default, |key| all.of(key))
-            };
-            (0..here.count()).map(|at| beside.derivative(at, accuracy(at))).collect()
+        let all = pairs().zip(close).map(|((number, sides), is_close)| {
+            let near = if is_close { None } else { inner.next() };
+            self.beside(number, step, sides, near.as_ref())
         });
         let all = all.collect();
         (all, 2 * (numbers.len() + of_inner.len()))
+    }
+
+    /// The derivatives with respect to a number by the solutions beside it.
+    fn beside(
+        &self,
+        number: usize,
+        step: f64,
+        sides: &[Neighbour; 2],
+        near: Option<&[Neighbour; 2]>,
+    ) -> Found {
+        let Self { run, here, .. } = self;
+        let number = self.numbers[number].value;
+        let steps_error = self.plan.settings.rtol.map(|rtol| ERRORS_PER_TOLERANCE * rtol);
+        let beside = Beside { run, here, sides, near, number, step, steps_error };
+        let accuracy = |at: usize| {
+            let all = &self.plan.settings.accuracy;
+            self.keys.get(at).map_or(all.default, |key| all.of(key))
+        };
+        (0..here.count()).map(|at| beside.derivative(at, accuracy(at))).collect()
     }
 
     /// The solutions a step below and above each of these numbers.
@@ -222,6 +236,14 @@ impl Search<'_> {
             }
         };
         neighbours(&sides.collect::<Vec<_>>(), self.threads, &solve)
+    }
+}
+
+/// Whether the error exceeds this part of the value, or differences have not settled.
+fn is_above(most: f64, own: &Result<Derivative, NoDerivative>) -> bool {
+    match own {
+        Ok(own) => own.relative_error > most,
+        Err(own) => !matches!(own, NoDerivative::NoValue { .. }),
     }
 }
 

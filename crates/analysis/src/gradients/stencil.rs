@@ -28,6 +28,8 @@ pub(super) struct Slope {
 
 /// By how much errors may exceed what differences of differences tell.
 const SAFETY: f64 = 4.0;
+/// Errors of values in the difference of their differences.
+const NOISES: f64 = 4.0;
 /// Part of the error from which on two slopes are what makes it.
 const MOSTLY: f64 = 0.25;
 
@@ -40,7 +42,8 @@ impl Stencil {
     /// The slope. With values at half a step its error is taken from them: of the step, by which the slopes at both
     /// steps differ, and of a kink, which keeps the difference of the slopes below and above from falling with the
     /// step. Without them the measure must be known to be smooth: its third derivative is then taken as no larger
-    /// than the second one, or the number's size, tells.
+    /// than the number's size tells, or the second one if it is the root of the distance to where it has none, as the
+    /// times of events are beside a graze.
     pub(super) fn slope(&self) -> Slope {
         let step = self.step * self.number;
         let [below, here, above] = self.values;
@@ -48,8 +51,10 @@ impl Stencil {
         let bend = (above - here) - (here - below);
         let Some([near_below, near_above]) = self.inner else {
             let scale = self.scale(central);
-            let ratio = bend.abs() / (2.0 * self.step * self.step);
-            let curved = if scale > 0.0 { ratio * ratio / scale } else { 0.0 };
+            let bent = (bend.abs() - NOISES * self.noise).max(0.0);
+            let ratio = bent / (2.0 * self.step * self.step);
+            let steep = (ratio / (central.abs() * self.number)).min(0.25 / self.step);
+            let curved = if steep > 1.0 { ratio * steep } else { 0.0 };
             let cut = SAFETY * self.step * self.step * scale.max(curved) / self.number;
             let error = cut + self.noise / step + self.common * scale / self.number;
             return Slope { value: central, error, sides: None };
@@ -100,6 +105,17 @@ mod tests {
                 assert!((five.value - right).abs() <= 1e-6 * scale, "{five:?} {right}");
                 assert!(five.error <= 1e-2 * scale && five.sides.is_none(), "{five:?} {scale}");
             }
+        }
+    }
+
+    /// `c + √(x − x₀)`: what changes with the number is small beside the value, as the time of an event is late.
+    #[test]
+    fn beside_a_graze_three_values_tell_of_the_root() {
+        for distance in [3e-3, 1e-2, 3e-2] {
+            let f = |x: f64| 10.0 + (x - 0.3 + distance).sqrt();
+            let own = stencil(f, 0.3, 1e-3, false).slope();
+            let off = (own.value - 0.5 / distance.sqrt()).abs();
+            assert!(off <= own.error && own.error <= 30.0 * off, "{own:?} {off}");
         }
     }
 
