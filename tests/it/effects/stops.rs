@@ -102,6 +102,47 @@ fn a_stop_that_gives_lets_go_before_the_pad() {
     });
 }
 
+/// `½ m (V² − K d²/m)` is lost on the stop, which the head meets through the contact of the pad: with a spring alone, and
+/// whatever little is thrown back.
+#[test]
+fn what_a_rigid_stop_takes_is_lost_on_the_stop() {
+    let (mass, speed, stiffness, depth) = (5.0_f64, 4.0_f64, 2e4, 0.02);
+    for restitution in [0.0, 1e-9, 0.3] {
+        let text = format!(
+            "[nodes]\nhead = {{ mass = {mass}, velocity = {speed} }}\n\
+             [elements]\npad = {{ between = [\"head\", \"ground\"], spring = {stiffness} }}\n\
+             [effects]\nseparation.pad = {{ at = \"head\" }}\n\
+             stop.pad = {{ at = {depth}, restitution = {restitution} }}\n[run]\nduration = 0.05\n"
+        );
+        let square = speed * speed - stiffness * depth * depth / mass;
+        let right = 0.5 * mass * square * (1.0 - restitution * restitution);
+        for method in ALL {
+            let report = run(&text, method);
+            let lost = |place: &str| -> f64 {
+                let own = report.trajectory.switches.iter();
+                own.filter(|own| own.name.starts_with(place)).map(|own| own.lost).sum()
+            };
+            let near = report.solver.rtol.map_or(1e-11, |rtol| 1e4 * rtol) * right;
+            assert!((lost("pad.stop") - right).abs() <= near, "{method} {restitution}");
+            assert!(lost("pad.contact").abs() <= near, "{method} {restitution}");
+        }
+    }
+}
+
+/// What is held does not say when it is let go: its deformation moves by roundings only.
+#[test]
+fn an_exact_time_of_a_stop_is_known_to_some_digits_of_roundings() {
+    let case = Case::of("stop-stiff");
+    let text = scene("{ at = <d>, stiffness = <Ks>, damping = <Cs> }", "", "<horizon>");
+    let report = run(&case.fill(&text), "exact");
+    let labels = ["stop-touch.time", "stop-release.time", "pad-release.time"];
+    assert_eq!(report.events.len(), labels.len());
+    for (event, label) in report.events.iter().zip(labels) {
+        let (off, error) = ((event.time - case.get(label)).abs(), event.error.unwrap());
+        assert!(off <= error && error <= 1e-9 * event.time, "{label}: {off:e} {error:e}");
+    }
+}
+
 #[test]
 fn a_head_that_comes_back_to_a_pad_still_at_its_stop_is_thrown_back_by_the_stop() {
     // A dashpot does not come back: m ẍ = m g − c ẋ until the stop, and then flights between hits at

@@ -12,6 +12,8 @@ use crate::{Reading, Solution};
 
 /// Roundings of a time that is found by itself.
 const ROUNDINGS: f64 = 4.0;
+/// What moves by less than this many times its error in a panel stands still.
+const STILL: f64 = 16.0;
 
 /// Errors of the times \[s\] of a solution's events; `None` where nothing is known of one, infinite where it comes and
 /// goes with the tolerance.
@@ -88,8 +90,8 @@ impl Instants {
             let before = signal.panels.partition_point(|panel| panel.end < time);
             let panel = signal.panels.get(before)?;
             let (slope, error) = (panel.slope(time).abs(), signal.error?);
-            // What stands still meets no level: the force of what slides, the deformation where it turns.
-            (slope * panel.length() > error).then(|| error / slope)
+            // What stands still meets no level: the force of what slides, the deformation where it turns or is held.
+            (slope * panel.length() > STILL * error).then(|| error / slope)
         };
         let rounded = |shift: Option<f64>, time: f64| {
             let reading = Reading { size: time, ..Reading::default() };

@@ -77,6 +77,17 @@ struct Candidate {
     approach: f64,
     /// Whether it is brought to rest although it moves apart.
     settles: bool,
+    /// Whether it closes at this instant.
+    closes: bool,
+}
+
+impl Candidate {
+    /// Whether of two contacts on both sides of what is massless it is this one that stops the masses: what throws
+    /// them back more, and of equals what they meet now.
+    fn stops_before(&self, other: &Self) -> bool {
+        let is_equal = self.restitution.to_bits() == other.restitution.to_bits();
+        self.restitution > other.restitution || is_equal && self.closes && !other.closes
+    }
 }
 
 /// Most sweeps over the contacts of one instant.
@@ -274,6 +285,7 @@ impl PhasedNetwork {
                 rebound_speed,
                 approach,
                 settles,
+                closes: !closed,
             });
         }
         one_of_each_chain(found)
@@ -347,8 +359,7 @@ impl PhasedNetwork {
     }
 }
 
-/// Of the contacts on both sides of what is massless only that of the larger restitution: masses that
-/// meet through both have one impact, and of the two it is what throws them back that stops them.
+/// Of the contacts on both sides of what is massless only one: masses that meet through both have one impact.
 fn one_of_each_chain(candidates: Vec<Candidate>) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::with_capacity(candidates.len());
     for candidate in candidates {
@@ -357,7 +368,7 @@ fn one_of_each_chain(candidates: Vec<Candidate>) -> Vec<Candidate> {
         };
         match kept.iter_mut().find(|other| is_of_chain(other)) {
             None => kept.push(candidate),
-            Some(other) if candidate.restitution > other.restitution => *other = candidate,
+            Some(other) if candidate.stops_before(other) => *other = candidate,
             Some(_) => {}
         }
     }
