@@ -321,10 +321,14 @@ fn tolerance_by_hand(wanted: f64) -> f64 {
     tolerance(|rtol| error_by_hand(rtol) < wanted)
 }
 
-/// The coarsest tolerance, in steps of a quarter decade, that suffices.
+/// Ever finer tolerances, in steps of a quarter decade.
+fn tolerances() -> impl Iterator<Item = f64> {
+    (8..48).map(|quarters| 10_f64.powf(-0.25 * f64::from(quarters)))
+}
+
+/// The coarsest tolerance that suffices.
 fn tolerance(suffices: impl Fn(f64) -> bool) -> f64 {
-    let mut all = (8..48).map(|quarters| 10_f64.powf(-0.25 * f64::from(quarters)));
-    all.find(|&rtol| suffices(rtol)).expect("a tolerance")
+    tolerances().find(|&rtol| suffices(rtol)).expect("a tolerance")
 }
 
 fn height(place: usize) -> f64 {

@@ -1,5 +1,5 @@
-//! Single runs of plain impacts, which are followed in steps of constant size, beside runs by a method that is asked
-//! for, and generated scenes beside finer solutions.
+//! Plain impacts, single and in sweeps, which are followed in steps of constant size, beside runs by a method that is
+//! asked for, and generated scenes beside finer solutions; and what looks plain and is not.
 
 use dashpot::{
     analysis::{Ledger, RunReport, Solve, SolveSettings, Warning},
@@ -10,7 +10,11 @@ use dashpot::{
         part,
     },
     rheology::Tree,
+    scene::{ReadOptions, read},
 };
+use tempfile::TempDir;
+
+use crate::cli::{code, err, file, json, run as command, text};
 
 /// A mass that is let fall on foam, or strikes it without weight.
 fn on_foam(height: Option<f64>, damping: f64) -> Network {
@@ -231,4 +235,152 @@ fn bars_of_generated_scenes_hold_the_truth() {
         }
     }
     assert!(plain >= 30 && measures >= 250, "{plain} scenes, {measures} measures");
+}
+
+/// A body on a pad of this law over a panel on a soft mount.
+fn over_a_panel(limits: &str) -> String {
+    format!(
+        "[nodes]\nhead = {{ mass = \"1 kg\", velocity = \"2 m/s\" }}\npanel = {{ mass = \"0.3 kg\" }}\n\
+         [elements]\npad = {{ between = [\"head\", \"panel\"], parallel = [{{ cubic-spring = {{ stiffness = \"2 kN/m\", \
+         cubic = \"9.86e+06 N/m^3\" }} }}, {{ dashpot = \"4.75 N s/m\" }}] }}\n\
+         mount = {{ between = [\"panel\", \"ground\"], parallel = [{{ spring = \"926 N/m\" }}, {{ dashpot = \"0.478 N s/m\" }}] \
+         }}\n[effects]\nseparation.pad = {{ at = \"head\" }}\n[run]\nduration = \"1 s\"\n{limits}"
+    )
+}
+
+/// The force of the pad all but ends at 29 ms and goes on to 134 ms: of two masses of the panel that differ in the
+/// sixth digit one is let go there.
+#[test]
+fn points_at_which_the_force_almost_ends_are_solved_in_full() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "dip.toml", &over_a_panel(""));
+    let many: Vec<String> = (0..60).map(|at| (1.5 + 0.01 * f64::from(at)).to_string()).collect();
+    let vary = format!("panel.mass=0.28656745826143126,0.28657029527898437,{} kg", many.join(","));
+    let swept = |more: &[&str]| {
+        let own =
+            ["sweep", text(&path), "--vary", &vary, "--measure", "pad.contact-time", "--json"];
+        json(&[&own[..], more].concat())
+    };
+    let (own, full) = (swept(&[]), swept(&["--method", "bdf", "--estimate", "all"]));
+    assert!(own["instantiated"].as_u64().unwrap() >= 20, "{}", own["instantiated"]);
+    let of = |found: &serde_json::Value, key: &str, at: usize| {
+        found["measures"][0][key][at].as_f64().unwrap_or(f64::INFINITY)
+    };
+    for at in 0..many.len() + 2 {
+        let off = (of(&own, "values", at) - of(&full, "values", at)).abs();
+        let room = of(&own, "errors", at) + of(&full, "errors", at);
+        assert!(off <= room, "{at}: {off} beside {room}");
+    }
+}
+
+/// The panel strikes the body again, and harder: what keeps a limit in the impact alone does not pass.
+#[test]
+fn a_point_passes_no_limit_that_a_later_blow_may_exceed() {
+    let folder = TempDir::new().unwrap();
+    let limits = "[limits]\npad.peak-force = \"65 N\"\n";
+    let path = file(&folder, "limit.toml", &over_a_panel(limits));
+    let verdicts = |method: &str| {
+        let vary = "head.mass=0.2..5 kg,40,log";
+        let own = json(&[
+            "sweep",
+            text(&path),
+            "--vary",
+            vary,
+            "--measure",
+            "pad.peak-force",
+            "--method",
+            method,
+            "--json",
+        ]);
+        let all = own["limits"][0]["verdicts"].as_array().unwrap().clone();
+        all.into_iter().map(|own| own.as_str().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    let (own, full) = (verdicts("auto"), verdicts("bdf"));
+    assert!(full.iter().any(|own| own == "undecided") && full.iter().any(|own| own == "pass"));
+    for (at, (own, full)) in own.iter().zip(&full).enumerate() {
+        assert!(own != "pass" || full == "pass", "{at}: {own}, {full}");
+    }
+}
+
+fn scene(text: &str) -> (Network, SolveSettings) {
+    let scene = read(text, &ReadOptions::default()).unwrap().value;
+    let settings = scene.settings("auto").unwrap();
+    (scene.network, settings)
+}
+
+/// Two solutions of few steps differ by less than their error.
+#[test]
+fn a_loose_tolerance_has_true_bars() {
+    let (network, settings) = scene(
+        "[nodes]\nhead = { mass = \"1 kg\", velocity = \"4.5 m/s\" }\n[elements]\n\
+         pad = { between = [\"head\", \"ground\"], parallel = [{ cubic-spring = { stiffness = \"100 kN/m\", cubic = \
+         \"1e8 N/m^3\" } }, { dashpot = \"117 N s/m\" }] }\n\
+         [effects]\nseparation.pad = { at = \"head\" }\n[run]\nduration = \"0.2 s\"\n",
+    );
+    let fine = SolveSettings { rtol: Some(1e-11), estimate: false, ..settings.clone() };
+    let truth = run(&network, &fine.by_name("bdf").unwrap());
+    let mut loose = settings.clone();
+    loose.accuracy.default = 0.05;
+    let given =
+        [1e-3, 1e-4, 1e-6].map(|rtol| SolveSettings { rtol: Some(rtol), ..settings.clone() });
+    for settings in given.into_iter().chain([loose]) {
+        let own = run(&network, &settings);
+        for (one, two) in own.measures.iter().zip(&truth.measures) {
+            let (error, off) =
+                (one.error.unwrap(), (one.value.unwrap() - two.value.unwrap()).abs());
+            assert!(off <= error + 1e-9 * one.size, "{}: {off} beside {error}", one.key);
+        }
+    }
+}
+
+/// The end of the table lies between two places at which steps are looked at.
+#[test]
+fn a_law_that_is_left_between_two_nodes_is_told() {
+    let (network, mut settings) = scene(
+        "[nodes]\nhead = { mass = \"5.59 kg\", velocity = \"4.13 m/s\" }\n[elements]\n\
+         pad = { between = [\"head\", \"ground\"], parallel = [{ table-spring = [[\"0 m\",\"0 N\"],[\"10 mm\",\"400 N\"],\
+         [\"30 mm\",\"2000 N\"],[\"37.0508 mm\",\"4000 N\"]] }, { dashpot = \"34.3 N s/m\" }] }\n\
+         [effects]\nseparation.pad = { at = \"head\" }\n[run]\nduration = \"0.3 s\"\n",
+    );
+    for accuracy in [5e-2, 1e-2, 1e-3] {
+        settings.accuracy.default = accuracy;
+        let own = run(&network, &settings);
+        let is_told = own.warnings.iter().any(|own| matches!(own, Warning::BeyondLaw(_)));
+        assert!(is_told, "{accuracy}: {:?}", own.warnings);
+    }
+}
+
+/// All that a drop reports by itself is told by instantiated points, as long as it does not come back.
+#[test]
+fn a_sweep_of_drops_is_instantiated_without_asking_for_measures() {
+    let folder = TempDir::new().unwrap();
+    let drop = include_str!("../../scenes/instrument-drop.toml");
+    let path = file(&folder, "drop.toml", drop);
+    let own = json(&[
+        "sweep",
+        text(&path),
+        "--vary",
+        "instrument.mass=6..8 kg,12",
+        "--method",
+        "auto",
+        "--json",
+    ]);
+    assert_eq!(own["instantiated"].as_u64(), Some(12), "{}", own["instantiated"]);
+    let at_end = own["measures"].as_array().unwrap();
+    assert!(at_end.iter().any(|own| own["key"].as_str().unwrap().ends_with("energy-at-end")));
+}
+
+/// What is solved beside a run is solved by what gets through there.
+#[test]
+fn a_gradient_of_a_plain_impact_gets_through_where_the_run_does() {
+    let folder = TempDir::new().unwrap();
+    let text_of = "[nodes]\nhead = { mass = \"3.0063 kg\", drop = \"0.29527 m\" }\n[elements]\n\
+        pad = { between = [\"head\", \"ground\"], parallel = [{ series = [ { parallel = [{ stiffening-spring = { stiffness = \
+        \"82382.6 N/m\", limit = \"9.685 mm\" } }, { dashpot = \"1.23786 N s/m\" }] }, { dashpot = \"616.168 N s/m\" }] }, { \
+        dashpot = \"11.5909 N s/m\" }, { formula = { force = \"432.491 N * sinh(y / 10.4996 mm)\" } }, { cubic-spring = { \
+        stiffness = \"82382.6 N/m\", cubic = \"8.30629e+07 N/m^3\" } }] }\n\
+        [effects]\nseparation.pad = { at = \"head\" }\ngravity = { value = \"1 g0\" }\n[run]\nduration = \"0.27293 s\"\n";
+    let path = file(&folder, "scene.toml", text_of);
+    let own = command(&["sweep", text(&path), "--gradient", "head.mass"]);
+    assert_eq!(code(&own), 0, "{}", err(&own));
 }

@@ -33,7 +33,7 @@ fn accuracy_is_kept(wish: impl Fn(&mut Accuracy)) {
             let Ok((Some(truth), report)) = known else { continue };
             let name = format!("{} {at} by {method}", case.drawn.kind);
             if report.solver.method != "exact" {
-                assert!(report.solver.solves_for_error >= 3, "{name}: nothing to take bars from");
+                assert!(report.solver.solves_for_error >= 1, "{name}: nothing to take bars from");
                 assert!(!report.solver.wall_for_error.is_zero(), "{name}: bars cost time");
             }
             for found in report.measures.iter().filter(|found| found.value.is_some()) {

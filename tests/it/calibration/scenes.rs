@@ -60,6 +60,15 @@ pub(super) struct Drawn {
     pub(super) scene: Scene,
 }
 
+impl Drawn {
+    /// The same with a change of its text.
+    pub(super) fn changed(self, change: impl Fn(&str) -> String) -> Self {
+        let text = change(&self.text);
+        let scene = read(&text, &ReadOptions::default()).unwrap().value;
+        Self { text, scene, ..self }
+    }
+}
+
 /// Scene number `at` of a seed: linear ones and others by turns, each kind as often as the others of
 /// its half. Texts that the program refuses are drawn again.
 pub(super) fn draw(seed: u64, at: usize) -> Drawn {

@@ -71,6 +71,24 @@ impl Tally {
         self
     }
 
+    /// It as a row of a table in Markdown.
+    fn row(&self, method: &str, scenes: &str) -> String {
+        let inside = self.measures - self.measures_outside;
+        format!(
+            "| `{method}` | {scenes} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0} ms |\n",
+            self.scenes,
+            percent(self.coverage()),
+            percent(inside as f64 / self.measures.max(1) as f64),
+            digits(self.ratio(0.5)),
+            digits(self.ratio(0.9)),
+            self.unreached,
+            self.failed,
+            self.too_long,
+            self.unknown,
+            1e3 * self.time.as_secs_f64() / self.scenes.max(1) as f64,
+        )
+    }
+
     /// Part of the scenes inside of all bars.
     pub(super) fn coverage(&self) -> f64 {
         self.inside as f64 / self.scenes.max(1) as f64
@@ -114,8 +132,8 @@ impl Tallies {
         own.fold(Tally::default(), Tally::with)
     }
 
-    /// All of it as two tables in Markdown.
-    pub(super) fn tables(&self, methods: &[&str]) -> String {
+    /// All of it, with single runs of `plain` impacts, as two tables in Markdown.
+    pub(super) fn tables(&self, methods: &[&str], plain: &Tally) -> String {
         let mut text = String::from(
             "| method | scenes | judged | inside | measures inside | median | 90 % | not reached | \
              failed | too long | truth unknown | time |\n\
@@ -123,24 +141,10 @@ impl Tallies {
         );
         for method in methods {
             for (name, is_wanted) in PARTS {
-                let own = self.of(method, is_wanted);
-                let inside = own.measures - own.measures_outside;
-                let _ = writeln!(
-                    text,
-                    "| `{method}` | {name} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0} ms |",
-                    own.scenes,
-                    percent(own.coverage()),
-                    percent(inside as f64 / own.measures.max(1) as f64),
-                    digits(own.ratio(0.5)),
-                    digits(own.ratio(0.9)),
-                    own.unreached,
-                    own.failed,
-                    own.too_long,
-                    own.unknown,
-                    1e3 * own.time.as_secs_f64() / own.scenes.max(1) as f64,
-                );
+                text += &self.of(method, is_wanted).row(method, name);
             }
         }
+        text += &plain.row("auto", "plain impacts");
         let heads: Vec<String> = methods.iter().map(|method| format!(" `{method}` |")).collect();
         let heads = heads.concat();
         let _ = write!(text, "\n| scenes |{heads}\n|---|{}\n", "---|".repeat(methods.len()));

@@ -66,6 +66,10 @@ pub(super) struct Text {
     duration: f64,
 }
 
+/// What is read of a head.
+pub(super) const HEAD_MEASURES: &str =
+    "\"end-velocity\", \"hic15\", { kind = \"peak-displacement\", window = \"run\" }";
+
 impl Text {
     /// A scene of this duration \[s\].
     pub(super) fn lasting(duration: f64) -> Self {
@@ -101,10 +105,7 @@ impl Text {
 
     /// What is read of a head besides what every run reports.
     pub(super) fn head(self, keys: impl AsRef<str>) -> Self {
-        self.node("head", keys).measures(
-            "head",
-            "\"end-velocity\", \"hic15\", { kind = \"peak-displacement\", window = \"run\" }",
-        )
+        self.node("head", keys).measures("head", HEAD_MEASURES)
     }
 
     /// A head that strikes.

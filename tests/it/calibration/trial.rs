@@ -63,6 +63,11 @@ impl Case {
         Self { drawn: draw(seed, at), truth: OnceCell::new() }
     }
 
+    /// The same with a change of its text.
+    pub(super) fn changed(seed: u64, at: usize, change: impl Fn(&str) -> String) -> Self {
+        Self { drawn: draw(seed, at).changed(change), truth: OnceCell::new() }
+    }
+
     /// What is true of it, if that can be found out.
     pub(super) fn truth(&self) -> Option<&Truth> {
         self.truth.get_or_init(|| truth(&self.drawn)).as_ref()

@@ -1,12 +1,9 @@
 //! What becomes of a pad once it has let go what struck it.
 
-use dashpot_network::{Assembly, Instance, ParametricSystem, PartRow};
+use dashpot_network::{Instance, ParametricSystem, PartRow};
 use dashpot_numerics::small::dot;
 
-use super::{
-    energies::stored_at_most,
-    stepped::{Course, Nodes, Stepped, Track, is_outside},
-};
+use super::stepped::{Course, Nodes, Stepped, Track};
 
 /// What is left to dissipate, in parts of the energy of the impact and of the tolerance, is of no
 /// account.
@@ -20,7 +17,11 @@ const ROUNDING: f64 = 1e-6;
 
 /// The pad from the release on, and what has left it.
 #[derive(Debug)]
-pub(super) struct Aftermath<const N: usize> {
+pub(crate) struct Aftermath<const N: usize> {
+    /// The unknowns at the release.
+    pub(super) from: [f64; N],
+    /// What has left the pad.
+    pub(super) flight: Flight,
     /// Up to the end of the run, or until nothing moves any more.
     pub(super) track: Track<N>,
     pub(super) parts: Vec<PartRow<N>>,
@@ -47,47 +48,59 @@ impl Flight {
     }
 }
 
-/// Follows a pad that is `released` from some unknowns on for the dimensionless time `left`, at a tolerance. `None`
-/// where it cannot be followed, a law leaves its range, or it meets again what has left it.
-pub(super) fn follow<const N: usize>(
-    (released, numbers): (&ParametricSystem, &[f64]),
-    assembly: &Assembly,
-    (course, from): (&Course<N>, &[f64; N]),
-    flight: Flight,
-    (left, rtol, energy): (f64, f64, f64),
+/// The forms of a pad while it is struck, with its instance, and behind that, and the numbers of both.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Forms<'f, const N: usize> {
+    pub(crate) before: (&'f ParametricSystem, &'f Instance<N>),
+    pub(crate) behind: &'f ParametricSystem,
+    pub(crate) numbers: &'f [f64],
+}
+
+/// Follows a pad from the release on for the dimensionless time `left`, at a tolerance. `None` where it cannot be
+/// followed, a law leaves its range, or it meets again what has left it.
+pub(crate) fn follow<const N: usize>(
+    Forms { before, behind, numbers }: Forms<'_, N>,
+    course: &Course<N>,
+    (left, rtol): (f64, f64),
 ) -> Option<Aftermath<N>> {
-    let mut instance: Instance<N> = released.instance()?;
-    if !released.fill(numbers, &mut instance) {
+    let mut instance: Instance<N> = behind.instance()?;
+    if !behind.fill(numbers, &mut instance) {
         return None;
     }
-    let parts = released.parts(&instance);
-    let masses = released.masses_and_speeds(numbers, &instance);
-    let stepped = Stepped { instance: &instance, unknowns: released.unknowns(), end: left };
+    let from = course.track.late(course.release)?;
+    let pull = before.0.constant_force(numbers) / before.0.impactor_mass(numbers);
+    let flight = Flight { speed: dot(&before.0.speed_of_face(before.1), &from), pull };
+    let least = LITTLE * rtol * before.0.energy_at_start(numbers, before.1);
+    let masses = behind.masses_and_speeds(numbers, &instance);
+    let stepped = Stepped { instance: &instance, unknowns: behind.unknowns(), end: left };
     let is_over = |nodes: &Nodes<N>| {
         let last = &nodes.values[nodes.values.len() - 1];
-        masses.is_empty() && stored_at_most(assembly, &parts, last) <= LITTLE * rtol * energy
+        masses.is_empty() && behind.stored_at_most(numbers, &instance, last) <= least
     };
-    let track = stepped.settle(from, rtol, &is_over)?;
-    if track.nodes().any(|z| instance.curves.iter().any(|curve| is_outside(curve, z))) {
+    let track = stepped.settle(&from, rtol, &is_over)?;
+    if track.steps.iter().any(|own| own.leave(&instance.curves, own.end())) {
         return None;
     }
-    let (face, time) = (released.speed_of_face(&instance), released.time_scale());
+    let (face, time) = (behind.speed_of_face(&instance), behind.time_scale());
     let (mut way, mut at) = (0.0, 0.0);
     for step in &track.steps {
         let panel = step.panel(&|z| dot(&face, z));
+        let gone = panel.antiderivative();
         // Where no mass swings, nothing comes back within a step.
         let looks = if masses.is_empty() { &[1.0][..] } else { &PLACES };
         for part in looks {
             at = if *part < 1.0 { panel.start + part * panel.length() } else { panel.end };
-            let gone = panel.part(panel.start, at).integral() * time;
+            let here = way + gone.value(at) * time;
             at *= time;
-            if way + gone - flight.way(at) < -ROUNDING * course.deepest.value {
+            if here - flight.way(at) < -ROUNDING * course.deepest.value {
                 return None;
             }
         }
-        way += panel.integral() * time;
+        way += gone.value(panel.end) * time;
     }
     let end = left * time;
     let is_away = way - flight.way(end) > NEAR * course.deepest.value;
-    (is_away && at <= end * (1.0 + ROUNDING)).then_some(Aftermath { track, parts, masses })
+    let parts = behind.parts(&instance);
+    let own = Aftermath { from, flight, track, parts, masses };
+    (is_away && at <= end * (1.0 + ROUNDING)).then_some(own)
 }

@@ -8,6 +8,9 @@ use super::stepped::{Course, Stepped};
 
 /// Tolerances in parts of the accuracy that is wanted.
 pub(crate) const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
+/// Solutions are no coarser than for this accuracy: of few steps two have about the same ones, and their difference
+/// tells nothing.
+pub(crate) const LOOSEST: f64 = 1e-3;
 /// The finest of them.
 const FINEST: f64 = 1e-13;
 /// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
@@ -31,7 +34,7 @@ pub(crate) struct Found<const N: usize> {
 
 /// The tolerance of this number for values that are to be so accurate.
 pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
-    (TOLERANCES[level] * accuracy).max(FINEST)
+    (TOLERANCES[level] * accuracy.min(LOOSEST)).max(FINEST)
 }
 
 /// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value

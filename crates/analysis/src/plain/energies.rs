@@ -6,21 +6,6 @@ use dashpot_numerics::small::dot;
 use super::{aftermath::Flight, stepped::Track};
 use crate::{Ledger, energy::roles::EnergyRole};
 
-/// What all parts store \[J\] at most, as forces rise with deformations.
-pub(super) fn stored_at_most<const N: usize>(
-    assembly: &Assembly,
-    parts: &[PartRow<N>],
-    z: &[f64; N],
-) -> f64 {
-    let most = |part: &PartRow<N>| {
-        let element = assembly.primitives[part.primitive].element.as_ref();
-        let deformation = dot(&part.deformation, z);
-        let stores = EnergyRole::of(element).stores;
-        if stores { (element.force(deformation, 0.0) * deformation).abs() } else { 0.0 }
-    };
-    parts.iter().map(most).sum()
-}
-
 fn stored_in<const N: usize>(assembly: &Assembly, part: &PartRow<N>, z: &[f64; N]) -> f64 {
     let element = &assembly.primitives[part.primitive].element;
     if EnergyRole::of(element.as_ref()).stores {

@@ -7,7 +7,7 @@
 //!
 //! Everything else, and what turns out not to be plain, is left to [`solve_assembly`](crate::solve_assembly).
 
-mod aftermath;
+pub(crate) mod aftermath;
 pub(crate) mod bars;
 mod energies;
 mod later;
@@ -24,23 +24,19 @@ use dashpot_network::{Assembly, Instance, Network};
 use dashpot_numerics::small::dot;
 
 use self::{
-    aftermath::Flight,
-    bars::{Found, TOLERANCES, added, tolerance, with_bars},
+    aftermath::Forms,
+    bars::{Found, LOOSEST, TOLERANCES, added, tolerance, with_bars},
     energies::{Balance, Leg},
     scene::Scene,
     stepped::{Course, Stepped},
     told::{Ledgers, Told},
 };
-use crate::{RunError, RunReport, SolveSettings, report::curves::Struck};
+use crate::{RunError, RunReport, SolveSettings, report::curves::Struck, run::SINGLE};
 
 /// The largest number of unknowns that are instantiated.
 pub(crate) const MOST_STATES: usize = 12;
-/// Tolerance of a single solution whose error is not estimated, when none is given.
-const SINGLE: f64 = 1e-6;
 /// The coarser tolerance in parts of one that is given.
 const COARSER: f64 = 100.0;
-/// Part of the largest force below which one that does not fall on for good may have ended the impact.
-const SLIGHT: f64 = 1e-2;
 
 /// The run of a plain impact; `None` where it is not one, or not certain enough.
 ///
@@ -57,7 +53,7 @@ pub(crate) fn solve(
     let scene = Scene::of(network, assembly, settings)?;
     let mut told = match scene.released.states() {
         0..=4 => solved::<4>(&scene),
-        5..=6 => solved::<6>(&scene),
+        5..=8 => solved::<8>(&scene),
         _ => solved::<MOST_STATES>(&scene),
     }?;
     let budget = Budget::of(settings.budget);
@@ -87,33 +83,23 @@ fn solved<const N: usize>(scene: &Scene<'_>) -> Option<Told> {
     let stepped = Stepped { instance: &instance, unknowns: parametric.unknowns(), end };
     let (found, rtol) = followed(scene, &stepped)?;
     let Found { values, errors, course, others, work } = found;
-    if lingers(&course) {
-        return None;
-    }
-    let left = course.track.late(course.release)?;
     let masses = parametric.masses_and_speeds(numbers, &instance);
     let parts = parametric.parts(&instance);
-    let face = parametric.speed_of_face(&instance);
-    let pull = parametric.constant_force(numbers) / scales.mass;
-    let flight = Flight { speed: dot(&face, &left), pull };
-    let energy = |(mass, row): &(f64, [f64; N])| 0.5 * mass * dot(row, &instance.start).powi(2);
-    let struck: f64 = masses.iter().map(energy).sum();
+    let whole = end - course.release;
+    let forms = Forms { before: (parametric, &instance), behind: &scene.released, numbers };
+    let after = aftermath::follow(forms, &course, (whole, rtol))?;
+    let struck = parametric.energy_at_start(numbers, &instance);
     let mut balance =
         Balance::at_touch(assembly, struck, if scene.fall > 0.0 { struck } else { 0.0 });
-    let released = (course.release, left);
+    let released = (course.release, after.from);
     let leg = Leg { track: &course.track, parts: &parts, masses: &masses, end: released };
     balance.add(assembly, &leg, time);
+    let face = parametric.speed_of_face(&instance);
     let way = course.track.signal(&|z| dot(&face, z)).integral((0.0, course.release)) * time;
-    balance.add_work(scales.mass * pull * way);
+    let flight = after.flight;
+    balance.add_work(scales.mass * flight.pull * way);
     let release = scene.fall + course.release * time;
     let after_impact = balance.ledger(assembly, release);
-    let after = aftermath::follow(
-        (&scene.released, numbers),
-        assembly,
-        (&course, &left),
-        flight,
-        (end - course.release, rtol, struck),
-    )?;
     balance.let_go(scales.mass, flight, settings.duration - release);
     if let Some(last) = after.track.steps.last() {
         let leg = Leg {
@@ -171,6 +157,9 @@ fn followed<const N: usize>(
         return is_finite.then_some((Found { values, errors, course, others: 0, work }, rtol));
     }
     let tolerances: Vec<f64> = if let Some(rtol) = settings.rtol {
+        if COARSER * rtol > tolerance(0, LOOSEST) {
+            return None;
+        }
         vec![COARSER * rtol, rtol]
     } else {
         let strictest = settings.accuracy.strictest();
@@ -180,25 +169,4 @@ fn followed<const N: usize>(
     let found = with_bars(stepped, &tolerances, &read, &suffice)?;
     let rtol = tolerances[found.others];
     Some((found, rtol))
-}
-
-/// Whether the force comes so near to zero, and goes on, that the impact may have ended there.
-fn lingers<const N: usize>(course: &Course<N>) -> bool {
-    let slight = SLIGHT * course.strongest.value;
-    let (mut has_risen, mut before) = (false, f64::INFINITY);
-    for panel in &course.force.panels {
-        for place in [-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0] {
-            let time = panel.time(place);
-            if time > course.release {
-                return false;
-            }
-            let force = panel.value(time);
-            has_risen |= force > slight;
-            if has_risen && before < slight && force > before {
-                return true;
-            }
-            before = if has_risen { force } else { f64::INFINITY };
-        }
-    }
-    false
 }

@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_dae::{Method as _, Run, SolveError, methods};
-use dashpot_network::{
-    Assembly, ConnectionOutputs, Network, ParametricSystem, SegmentPlace, parameters::Kind as _,
-};
+use dashpot_network::{Assembly, ConnectionOutputs, Network, ParametricSystem, SegmentPlace};
 
 use super::{
     MOST_STATES,
@@ -15,7 +13,6 @@ use super::{
 use crate::{
     Choice, SolveSettings,
     measures::{
-        EnergyAtEnd,
         hic_search::optimum,
         selection::{Selected, select},
     },
@@ -85,11 +82,7 @@ impl<'s> Scene<'s> {
             return None;
         }
         let mut wanted = Wanted::default();
-        let shown = |own: &Selected| {
-            let is_at_end = own.measure.kind() == EnergyAtEnd::KIND && own.target == struck;
-            // Nothing acts on the pad behind the impact.
-            if is_at_end { Some(Shown::WorkAtEnd) } else { shown_by(own, &parametric, &mut wanted) }
-        };
+        let shown = |own: &Selected| shown_by(own, &parametric, &mut wanted);
         let shown: Vec<Shown> = selected.iter().map(shown).collect::<Option<_>>()?;
         let wishes = selected.iter().map(|own| settings.accuracy.of(&own.key)).collect();
         let scales = Scales {
@@ -118,10 +111,7 @@ impl<'s> Scene<'s> {
 
     /// The measures, and when the impact ends \[s\] after the touch.
     pub(super) fn read<const N: usize>(&self, course: &Course<N>) -> Vec<f64> {
-        let own = self.shown.iter().map(|&shown| match shown {
-            Shown::WorkAtEnd => self.scales.read(Shown::Work, course),
-            shown => self.scales.read(shown, course),
-        });
+        let own = self.shown.iter().map(|&shown| self.scales.read(shown, course));
         own.chain([course.release * self.scales.time]).collect()
     }
 

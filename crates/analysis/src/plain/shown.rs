@@ -92,8 +92,13 @@ pub(crate) fn shown_by(
             wanted.work = true;
             Some(Shown::Work)
         }
-        // What happens after the impact is another story where it parts, or is not linear.
         ("energy-at-end", []) if parametric.is_linear() && !parametric.opens() => {
+            wanted.work_at_end = true;
+            Some(Shown::WorkAtEnd)
+        }
+        // Nothing acts on the pad behind an impact that parts for good.
+        ("energy-at-end", []) if !parametric.is_linear() && parametric.opens() => {
+            wanted.work = true;
             wanted.work_at_end = true;
             Some(Shown::WorkAtEnd)
         }
@@ -142,8 +147,7 @@ impl Scales {
             Shown::ContactTime => release * time,
             Shown::Restitution => -speed.value(*release) / speed.value(0.0),
             Shown::Impulse => force.integral(impact) * time,
-            Shown::Work => force.integral_of_product(speed, impact),
-            Shown::WorkAtEnd => f64::NAN,
+            Shown::Work | Shown::WorkAtEnd => force.integral_of_product(speed, impact),
             Shown::Severity => power_of(force, *release, exponent) * time / unit.powf(exponent),
             Shown::Hic(cap) => optimum(force, impact, cap / time).value * time / unit.powf(2.5),
         }

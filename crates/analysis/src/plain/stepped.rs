@@ -22,8 +22,12 @@ const GROWTH: (f64, f64) = (0.2, 6.0);
 const MOST: usize = 2000;
 /// By what part of itself the last step goes beyond the release, at most twice that.
 const OVERSHOOT: f64 = 0.02;
+/// Part of the largest force below which one that does not fall on for good may have ended the impact.
+const SLIGHT: f64 = 1e-2;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
+/// A polynomial goes no further beyond what it is at the nodes than this part of the room between these values.
+const BETWEEN: f64 = 0.25;
 
 /// The unknowns, and what stands in their slots, at the nodes of a step.
 #[derive(Debug, Clone)]
@@ -47,6 +51,24 @@ impl<const N: usize> Nodes<N> {
     /// When it ends.
     pub(crate) fn end(&self) -> f64 {
         self.end
+    }
+
+    /// Whether a law is pressed beyond where it holds, up to a time within.
+    pub(crate) fn leave(&self, curves: &[CurveRow<N>], until: f64) -> bool {
+        curves.iter().any(|curve| {
+            let Some((from, to)) = curve.law.range() else { return false };
+            let places = self.values.map(|z| dot(&curve.deformation, &z));
+            let [low, high] = [f64::min, f64::max].map(|most| places.into_iter().reduce(most));
+            let (low, high) = (low.unwrap_or(from), high.unwrap_or(to));
+            let from = from - if from.is_finite() { BEYOND * (to - from) } else { 0.0 };
+            let between = BETWEEN * (high - low);
+            if low - between >= from && high + between <= to {
+                return false;
+            }
+            let path = Signal::new(vec![self.panel(&|z| dot(&curve.deformation, z))], None, 0.0);
+            let window = (self.start, until);
+            path.minimum(window).value < from || path.maximum(window).value > to
+        })
     }
 
     /// The polynomial of what is looked at over it.
@@ -109,6 +131,29 @@ pub(crate) struct Course<const N: usize> {
     pub(crate) deepest: Extremum,
 }
 
+impl<const N: usize> Course<N> {
+    /// Whether the force comes so near to zero, and goes on, that the impact may have ended there.
+    fn lingers(&self) -> bool {
+        let slight = SLIGHT * self.strongest.value;
+        let (mut has_risen, mut before) = (false, f64::INFINITY);
+        for panel in &self.force.panels {
+            for place in [-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0] {
+                let time = panel.time(place);
+                if time > self.release {
+                    return false;
+                }
+                let force = panel.value(time);
+                has_risen |= force > slight;
+                if has_risen && before < slight && force > before {
+                    return true;
+                }
+                before = if has_risen { force } else { f64::INFINITY };
+            }
+        }
+        false
+    }
+}
+
 /// A scene to be followed up to the dimensionless time `end`.
 pub(crate) struct Stepped<'s, const N: usize> {
     pub(crate) instance: &'s Instance<N>,
@@ -122,8 +167,8 @@ type Looks<const N: usize> = [[f64; 3]; N];
 
 impl<const N: usize> Stepped<'_, N> {
     /// Follows it at a relative tolerance. `None` where the impact is not of the plain kind: the force does not
-    /// push from the start, or does not fall through zero within the run; and where a law leaves its range,
-    /// or the steps are too many.
+    /// push from the start, lingers near zero, or does not fall through it within the run; and where a law leaves its
+    /// range, or the steps are too many.
     pub(crate) fn follow(&self, rtol: f64) -> Option<Course<N>> {
         let Instance { start, curves, .. } = self.instance;
         let mut slopes = self.slopes();
@@ -148,7 +193,7 @@ impl<const N: usize> Stepped<'_, N> {
                 step.fit(&mut slopes);
                 track.work.rhs_calls += 1 + FURTHER.len();
                 let own = Nodes::of(&step, (time, time + length), self.instance);
-                seen = Seen::of(&own, curves, &looks);
+                seen = Seen::of(&own, &looks);
                 let force = &seen.coefficients[0];
                 strongest = strongest.max(force[0].abs());
                 error = error.max(force[DEGREE].abs() / (rtol * strongest));
@@ -167,7 +212,10 @@ impl<const N: usize> Stepped<'_, N> {
                 length = until * (1.0 + OVERSHOOT);
                 continue;
             }
-            if seen.is_beyond || until.is_some_and(|until| until <= 0.0) {
+            // What strikes is gone behind the release, however far the step reaches.
+            let held = until.map_or(time + length, |until| time + until.min(length));
+            let is_beyond = nodes.as_ref().is_some_and(|own| own.leave(curves, held));
+            if is_beyond || until.is_some_and(|until| until <= 0.0) {
                 return None;
             }
             for (panels, coefficients) in course.iter_mut().zip(seen.coefficients) {
@@ -276,12 +324,10 @@ struct Seen {
     coefficients: [[f64; DEGREE + 1]; 3],
     /// The force at the places that they pass through.
     force: [f64; DEGREE + 1],
-    /// Whether a law is followed beyond where it holds before the release.
-    is_beyond: bool,
 }
 
 impl Seen {
-    fn of<const N: usize>(nodes: &Nodes<N>, curves: &[CurveRow<N>], looks: &Looks<N>) -> Self {
+    fn of<const N: usize>(nodes: &Nodes<N>, looks: &Looks<N>) -> Self {
         let mut values = [[0.0; DEGREE + 1]; 3];
         for (at, z) in nodes.values.iter().enumerate() {
             let own = apply(looks, z);
@@ -293,12 +339,7 @@ impl Seen {
             interpolation.coefficients(&values, &mut own);
             own
         });
-        let own = Self { coefficients, force: values[0], is_beyond: false };
-        // What strikes is gone behind the release, however far the step reaches.
-        let until = own.opening().unwrap_or(nodes.values.len());
-        let is_outside = |z: &[f64; N]| curves.iter().any(|curve| is_outside(curve, z));
-        let is_beyond = nodes.values[..until].iter().any(is_outside);
-        Self { is_beyond, ..own }
+        Self { coefficients, force: values[0] }
     }
 
     /// The first of the places at which the force no longer pushes; at the very start it may be zero.
@@ -317,15 +358,6 @@ impl Seen {
     }
 }
 
-/// Whether a law does not hold where it is.
-pub(super) fn is_outside<const N: usize>(curve: &CurveRow<N>, z: &[f64; N]) -> bool {
-    let place = dot(&curve.deformation, z);
-    curve.law.range().is_some_and(|(from, to)| {
-        let room = if from.is_finite() { BEYOND * (to - from) } else { 0.0 };
-        place < from - room || place > to
-    })
-}
-
 /// The course up to the release, which lies in the last panel.
 fn released<const N: usize>(
     [force, depth, speed]: [Vec<Panel>; 3],
@@ -334,5 +366,6 @@ fn released<const N: usize>(
     let [force, depth, speed] = [force, depth, speed].map(|panels| Signal::new(panels, None, 0.0));
     let release = force.first_crossing(0.0, (0.0, force.end()), Some(false))?.time;
     let (strongest, deepest) = (force.maximum((0.0, release)), depth.maximum((0.0, release)));
-    (release > 0.0).then_some(Course { track, force, speed, release, strongest, deepest })
+    let course = Course { track, force, speed, release, strongest, deepest };
+    (release > 0.0 && !course.lingers()).then_some(course)
 }

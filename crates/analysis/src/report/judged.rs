@@ -92,8 +92,8 @@ impl RunReport {
     fn judge<'r>(&'r self, limit: &'r Limit) -> Judged<'r> {
         let measure = self.measure(&limit.key);
         let is_so_far = measure.is_some_and(|own| self.is_so_far(own));
-        // What is infinite has a time, and no value there.
-        let value = measure.and_then(|own| own.value.or(own.time.map(|_| f64::INFINITY)));
+        let infinite = |own: &MeasureReport| own.is_infinite().then_some(f64::INFINITY);
+        let value = measure.and_then(|own| own.value.or(infinite(own)));
         let is_determined = measure.is_some_and(|own| !own.is_undetermined);
         let judgement = match (value.filter(|_| is_determined), limit.bound) {
             (None, _) => Judgement::Undecided(Reason::NoValue),

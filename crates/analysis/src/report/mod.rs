@@ -159,6 +159,11 @@ impl MeasureReport {
         (!self.notes.is_empty()).then(|| Note::joined(&self.notes))
     }
 
+    /// Whether it is infinite, as a peak is where speeds jump: it has a time then, and no value.
+    pub fn is_infinite(&self) -> bool {
+        self.value.is_none() && self.time.is_some() && !self.is_undetermined
+    }
+
     /// The error relative to the value, where both are known; of what is next to nothing beside its
     /// size, relative to that.
     pub fn relative_error(&self) -> Option<f64> {

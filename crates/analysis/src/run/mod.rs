@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
-const SINGLE: f64 = 1e-6;
+pub(crate) const SINGLE: f64 = 1e-6;
 
 /// Integrates a network that is compiled already, and reports; otherwise as [`Solve`](crate::Solve). `effects`
 /// are the words of those that are on.
@@ -128,6 +128,11 @@ pub fn undefined_measures(
 /// The method that `auto` chooses for a run of `duration` \[s\], and why.
 pub fn choice(assembly: &Assembly, duration: f64) -> (&'static str, String) {
     let (method, why) = methods::Auto::choose(&assembly.system, &Run::to(duration));
+    let is_linear = assembly.switching.as_ref().is_none_or(|own| own.has_linear_phases());
+    if method.is_exact() && !is_linear {
+        let why = "a law that is reached later is not linear, as `exact` would find on its way";
+        return (methods::Bdf.name(), why.to_owned());
+    }
     (method.name(), reason(assembly, method.as_ref(), why))
 }
 

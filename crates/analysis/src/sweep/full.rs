@@ -54,7 +54,7 @@ impl Full<'_> {
                 Some(report)
             }
             Err(reason) => {
-                flaws.gaps.push(Gap { point, column: None, reason });
+                flaws.gaps.push(Gap { point, column: None, reason, is_infinite: false });
                 None
             }
         }
@@ -70,21 +70,21 @@ impl Full<'_> {
         flaws: &mut Flaws,
     ) {
         for (at, column) in self.columns.iter().enumerate() {
-            let gap = |reason: String| Gap { point, column: Some(at), reason };
+            let gap = |reason, is_infinite| Gap { point, column: Some(at), reason, is_infinite };
             let Some(measure) = report.measure(&column.key) else {
-                flaws.gaps.push(gap("it is not reported at this point".to_owned()));
+                flaws.gaps.push(gap("it is not reported at this point".to_owned(), false));
                 continue;
             };
             let thickness =
                 report.assembly.connection(&measure.target).and_then(|own| own.thickness);
             let unit = if column.is_share { thickness } else { Some(1.0) };
-            match measure.value.zip(unit) {
-                Some((value, unit)) => {
-                    values[at] = value / unit;
-                    errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
-                    flaws.cut.extend(report.is_so_far(measure).then_some(at));
-                }
-                None => flaws.gaps.push(gap(measure.note().unwrap_or_default())),
+            if let Some((value, unit)) = measure.value.zip(unit) {
+                values[at] = value / unit;
+                errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
+                flaws.cut.extend(report.is_so_far(measure).then_some(at));
+            } else {
+                let reason = measure.note().unwrap_or_default();
+                flaws.gaps.push(gap(reason, measure.is_infinite()));
             }
         }
     }

@@ -21,6 +21,9 @@ use crate::{
 pub(super) struct Plan<'g> {
     pub(super) grid: &'g Grid,
     pub(super) parametric: ParametricSystem,
+    /// What becomes of the pad once it has let go what struck it, where that has to be looked at: laws are not linear, and
+    /// other masses may throw back what has left, or a measure reaches beyond the impact.
+    pub(super) released: Option<ParametricSystem>,
     /// The element that is struck.
     element: String,
     pub(super) table: Table,
@@ -79,10 +82,27 @@ impl<'g> Plan<'g> {
             let own = shown_by(own, &parametric, &mut wanted)?;
             shown.push(if column.is_share { Shown::Share } else { own });
         }
+        let is_parting = !parametric.is_linear() && parametric.opens();
+        let released = if is_parting && (wanted.work_at_end || parametric.masses() > 1) {
+            Some(parametric.released().filter(|own| own.states() <= MOST_STATES)?)
+        } else {
+            None
+        };
         let wishes = columns.iter().map(|column| settings.accuracy.of(&column.key)).collect();
         let table = Table::of(&parametric, grid, pose, duration, threads)?;
         let element = first.network.connections()[struck].name.clone();
-        Some(Self { grid, parametric, element, table, shown, wishes, wanted, estimates, duration })
+        Some(Self {
+            grid,
+            parametric,
+            released,
+            element,
+            table,
+            shown,
+            wishes,
+            wanted,
+            estimates,
+            duration,
+        })
     }
 
     /// The element that is struck.
@@ -104,7 +124,8 @@ impl<'g> Plan<'g> {
 
     /// What solves points; one for each thread.
     pub(super) fn stamper(&self) -> Option<Box<dyn Stamper + '_>> {
-        match self.parametric.states() {
+        let states = self.released.as_ref().map_or(0, ParametricSystem::states);
+        match states.max(self.parametric.states()) {
             0..=2 => self.sized::<2>(),
             3..=4 => self.sized::<4>(),
             5..=6 => self.sized::<6>(),

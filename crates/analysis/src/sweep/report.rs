@@ -1,6 +1,6 @@
 //! What a sweep yields, and what can go wrong with it as a whole.
 
-use std::time::Duration;
+use std::{collections::BTreeSet, time::Duration};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -32,6 +32,8 @@ pub struct Gap {
     pub column: Option<usize>,
     /// Why.
     pub reason: String,
+    /// Whether the value is beyond all limits, as a peak is where speeds jump.
+    pub is_infinite: bool,
 }
 
 /// What a sweep yields.
@@ -93,11 +95,13 @@ impl SweepReport {
     }
 
     /// What is known of the limit at this place among [`limits`](Self::limits), at each point; `None` where
-    /// there is no value. Where errors are estimated, a value without one decides nothing.
+    /// there is no value, but for one that is infinite. Where errors are estimated, a value without one decides nothing.
     pub fn judged(&self, limit: usize) -> Vec<Option<Judgement>> {
         let (column, ref limit) = self.limits[limit];
         let doubts = self.doubts(limit);
         let mut cut = self.cut.iter().filter(|own| own.1 == column).map(|own| own.0).peekable();
+        let infinite = self.gaps.iter().filter(|own| own.is_infinite && own.column == Some(column));
+        let infinite: BTreeSet<usize> = infinite.map(|own| own.point).collect();
         let are_estimated = self.errors.iter().any(|error| !error.is_nan());
         let both = self.column(column).zip(self.errors_of(column)).enumerate();
         both.map(|(point, (value, error))| {
@@ -105,7 +109,11 @@ impl SweepReport {
             let unknown = are_estimated.then_some(f64::INFINITY);
             let error = if error.is_nan() { unknown } else { Some(error) };
             let judged = || limit.bound.judge(value, error, grows).doubted(doubts[point]);
-            (!value.is_nan()).then(judged)
+            if value.is_nan() {
+                infinite.contains(&point).then(|| limit.bound.judge(f64::INFINITY, None, grows))
+            } else {
+                Some(judged())
+            }
         })
         .collect()
     }

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     plain::{
+        aftermath::{self, Forms},
         bars::{self, TOLERANCES, with_bars},
         stepped::{Course, Stepped},
     },
@@ -199,8 +200,8 @@ impl<const N: usize> Sized<'_, N> {
         }
         let is_known = known.error.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());
-        let is_free = !Besides::of(&self.numbers).are_stopped(self.depth(&course));
-        (is_known && is_finite && is_free).then(|| self.noticed(&course))
+        let is_good = is_known && is_finite && self.is_plain(&course, self.tolerance(known.level));
+        is_good.then(|| self.noticed(&course))
     }
 
     /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and the last
@@ -212,12 +213,23 @@ impl<const N: usize> Sized<'_, N> {
         let read = |course: &Course<N>| self.plan.seen(course, &self.numbers);
         let suffice = |values: &[f64], errors: &[f64]| self.suffice(values, errors);
         let found = with_bars(&stepped, &tolerances, &read, &suffice)?;
-        if Besides::of(&self.numbers).are_stopped(self.depth(&found.course)) {
+        if !self.is_plain(&found.course, self.tolerance(found.others)) {
             return None;
         }
         values.copy_from_slice(&found.values);
         errors.copy_from_slice(&found.errors);
         Some((self.noticed(&found.course), found.others))
+    }
+
+    /// Whether no stop is met, and nothing meets again what has left it, as far as that has to be looked at.
+    fn is_plain(&self, course: &Course<N>, rtol: f64) -> bool {
+        let Self { plan, instance, numbers, .. } = self;
+        let parts = plan.released.as_ref().is_none_or(|behind| {
+            let forms = Forms { before: (&plan.parametric, instance), behind, numbers };
+            let left = plan.end(numbers) - course.release;
+            aftermath::follow(forms, course, (left, rtol)).is_some()
+        });
+        parts && !Besides::of(numbers).are_stopped(self.depth(course))
     }
 
     fn stepped(&self) -> Stepped<'_, N> {

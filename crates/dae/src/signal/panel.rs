@@ -105,6 +105,14 @@ impl Panel {
         }
     }
 
+    /// Its integral from its start on \[unit·s\].
+    #[must_use]
+    pub fn antiderivative(&self) -> Self {
+        let mut coefficients = chebyshev::antiderivative(&self.coefficients);
+        coefficients.iter_mut().for_each(|own| *own *= 0.5 * self.length());
+        Self { coefficients, ..*self }
+    }
+
     /// Its integral over time \[unit·s\].
     pub fn integral(&self) -> f64 {
         0.5 * self.length() * chebyshev::integral(&self.coefficients)

@@ -1,6 +1,8 @@
 //! What a form does once what strikes it has been let go, and the rows of its parts.
 
-use super::{Curve, Instance, ParametricSystem, reading::order};
+use dashpot_numerics::small::dot;
+
+use super::{Curve, CurveRow, Instance, ParametricSystem, PartKind, reading::order};
 
 /// A part of a form over the unknowns and slots of one network.
 #[derive(Debug, Clone)]
@@ -46,6 +48,32 @@ impl ParametricSystem {
     pub fn constant_force(&self, numbers: &[f64]) -> f64 {
         let own = self.weighed.iter().find(|own| own.numbers[0] == self.mass);
         own.map_or(0.0, |own| numbers[own.numbers[2]])
+    }
+
+    /// The kinetic energy \[J\] of its masses at the start.
+    pub fn energy_at_start<const N: usize>(&self, numbers: &[f64], instance: &Instance<N>) -> f64 {
+        let all = self.masses_and_speeds(numbers, instance);
+        all.iter().map(|(mass, row)| 0.5 * mass * dot(row, &instance.start).powi(2)).sum()
+    }
+
+    /// What all springs and laws store \[J\] at most, as forces rise with deformations.
+    pub fn stored_at_most<const N: usize>(
+        &self,
+        numbers: &[f64],
+        instance: &Instance<N>,
+        z: &[f64; N],
+    ) -> f64 {
+        let springs = self.parts.iter().filter(|part| part.kind == PartKind::Spring);
+        let of_spring = |part: &super::Part| {
+            let deformation = dot(&self.in_metres(&part.deformation), z);
+            numbers[part.number] * deformation * deformation
+        };
+        let of_law = |curve: &CurveRow<N>| {
+            let deformation = dot(&curve.deformation, z);
+            (curve.law.force(deformation, 0.0) * deformation).abs()
+        };
+        let laws = instance.curves.iter().map(of_law);
+        springs.map(of_spring).chain(laws).sum()
     }
 
     /// The rows of its parts in an instance that is [filled](Self::fill).

@@ -269,7 +269,7 @@ impl<'s> Integrator<'s> {
         }
         let both = fifth + 0.01 * third;
         let count = self.reduced.differential().len().max(1) as f64;
-        if both > 0.0 { CAUTION * step * fifth / (both * count).sqrt() } else { 0.0 }
+        if both > 0.0 { CAUTION * step * fifth / (both * count).sqrt() } else { both }
     }
 
     /// The fastest rate that a step shows: by how much the slopes of two stages at its end differ beside the
