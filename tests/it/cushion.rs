@@ -359,3 +359,34 @@ fn drops_in_a_row_on_a_cushion_that_keeps_a_set_are_their_closed_form() {
         assert!((later / mean - 1.0).abs() < 1e-12, "{later} {mean}");
     }
 }
+
+/// A rigid stop makes the peak infinite: such drops are told by their cause, the best stress is sought up to them, and in
+/// a sweep they fail.
+#[test]
+fn drops_onto_a_rigid_stop_have_an_infinite_peak() {
+    let folder = TempDir::new().unwrap();
+    let stop = "stop.cushion = { at = \"2 cm\" }";
+    let path = file(&folder, "stop.toml", &scene("{ spring = \"0.4 MPa\" }", stop));
+    let own =
+        json(&["cushion", text(&path), "--heights", "60 cm", "--stress", "1..20 kPa,5", "--json"]);
+    let curve = &own["curves"][0];
+    let known = curve["known"].as_array().unwrap();
+    assert_eq!(known[0].as_str(), Some("whole"), "{known:?}");
+    assert_eq!(known[4].as_str(), Some("on-rigid-stop"), "{known:?}");
+    // It is met where the deformation of the spring is 2 cm: `m g (h + d) = ½ k d²`.
+    let met = 0.5 * 4e5 / 0.05 * 0.02 * 0.02 / 0.62;
+    let best = curve["best"]["stress"].as_f64().unwrap();
+    assert!((best / met - 1.0).abs() < 1e-4, "{best} {met}");
+    assert_eq!(curve["best"]["place"].as_str(), Some("end-of-known"));
+    let told =
+        out(&run(&["cushion", text(&path), "--heights", "60 cm", "--stress", "1..20 kPa,5"]));
+    assert!(told.contains("meet the rigid stop of cushion"), "{told}");
+    let limited = std::fs::read_to_string(&path).unwrap()
+        + "\n[limits]\nparcel.peak-acceleration = \"150 g\"\n";
+    let path = file(&folder, "limited.toml", &limited);
+    let vary = ["sweep", text(&path), "--vary", "parcel.mass=2,80 kg", "--json"];
+    let own = json(&vary);
+    let verdicts = own["limits"][0]["verdicts"].as_array().unwrap();
+    let words: Vec<_> = verdicts.iter().map(|own| own.as_str().unwrap_or("none")).collect();
+    assert_eq!(words, ["pass", "fail"], "{own}");
+}

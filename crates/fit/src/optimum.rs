@@ -84,6 +84,9 @@ pub fn sum(left: &[f64], robust_scale: Option<f64>) -> f64 {
 
 /// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one.
 const SETTLED: f64 = 1e-7;
+/// So is one whose unknowns that step would move by no more than this part of the room between their bounds: of exact
+/// records what is left is rounding.
+const SHORT: f64 = 1e-10;
 
 /// Whether no step between the bounds lowers the sum any more, where rounding ended the search.
 fn is_settled(
@@ -107,7 +110,11 @@ fn is_settled(
     (0..free.len()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
     let right = DVector::from_iterator(free.len(), free.iter().map(|at| gradient[*at]));
     let step = normal.cholesky().map(|own| own.solve(&right));
-    step.is_some_and(|step| 0.5 * step.dot(&right) <= SETTLED * cost)
+    step.is_some_and(|step| {
+        let mut moved = step.iter().zip(&free);
+        0.5 * step.dot(&right) <= SETTLED * cost
+            || moved.all(|(own, &at)| own.abs() <= SHORT * (upper[at] - lower[at]))
+    })
 }
 
 /// The best that was met so far.

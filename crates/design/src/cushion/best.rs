@@ -109,9 +109,9 @@ fn best(tests: &Tests<'_>, curve: &Curve) -> Option<Best> {
         |own: CushionPoint| if own.is_usable() && own.peak < least.peak { own } else { *least };
     let last = points.len() - 1;
     let place = match at {
-        0 => Place::Low,
         _ if at == last => Place::High,
         _ if !points[at + 1].is_usable() => Place::EndOfKnown,
+        0 => Place::Low,
         _ => Place::Within,
     };
     match place {
@@ -130,9 +130,11 @@ fn best(tests: &Tests<'_>, curve: &Curve) -> Option<Best> {
     let [(end, _), _] = edge((from.0, -1.0), beyond, NEAREST, excess);
     let (edge, inner) = (drop(end), end - INNER * (end - from.0));
     let (at_end, at_inner) = (low(&edge), rough(inner));
-    let before = (points[at - 1].stress.ln(), low(&points[at - 1]));
     let three = if from.1 > at_end.max(at_inner) {
-        [before, from, (end, at_end)]
+        let Some(before) = at.checked_sub(1).map(|at| &points[at]) else {
+            return Some(Best { point: *least, place: Place::Low });
+        };
+        [(before.stress.ln(), low(before)), from, (end, at_end)]
     } else if at_inner > at_end {
         [from, (inner, at_inner), (end, at_end)]
     } else {

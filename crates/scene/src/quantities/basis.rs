@@ -266,6 +266,8 @@ impl EnclosingPad {
         let example = if key == SIZE[0] { "2 cm" } else { "100 cm^2" };
         let what = if self.in_row {
             "each part of a `series` has a thickness and an area of its own, beside its law"
+        } else if self.around().is_some() && key == SIZE[1] {
+            "each of several parts side by side has an area of its own, in the table of its law"
         } else {
             "a material becomes a pad by its thickness and area"
         };

@@ -46,8 +46,8 @@ pub(super) fn stress_energy(own: &StressEnergy) -> Line {
              stress–energy method holds as a curve, not as a e^(b x)"
         ),
         Collapse::Fails => format!(
-            "G σ over σ h/t scatters by {scatter} about one curve: the stress–energy method does not hold for this \
-             cushion, whose force depends on the rate or the history; it predicts nothing here"
+            "G σ over σ h/t scatters by {scatter} about one curve: the peaks depend on more than σ h/t, and \
+             the stress–energy method predicts nothing here"
         ),
     };
     Line { label: "method", text }

@@ -155,17 +155,19 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
     line(if is_open { "UNDECIDED" } else { "FAIL" }, text)
 }
 
-/// Beyond what the cushion is pressed where a curve is no longer known.
-fn end(drawn: &Drawn) -> &'static str {
-    let is_beyond =
-        |own: &&CushionPoint| matches!(own.known, Known::BeyondLaw | Known::PressedThrough);
-    let first = |own: &Curve| own.points.iter().find(is_beyond).map(|own| own.known);
+/// How far the cushion is pressed where curves are no longer known.
+fn end(drawn: &Drawn) -> String {
+    let ends = [
+        (Known::BeyondLaw, "beyond the last point of its law"),
+        (Known::PressedThrough, "beyond its thickness"),
+        (Known::OnRigidStop, "onto its rigid stop"),
+    ];
+    let is_end = |own: &&CushionPoint| ends.iter().any(|end| end.0 == own.known);
+    let first = |own: &Curve| own.points.iter().find(is_end).map(|own| own.known);
     let has = |known: Known| drawn.cushion.curves.iter().any(|own| first(own) == Some(known));
-    match (has(Known::BeyondLaw), has(Known::PressedThrough)) {
-        (true, false) => "the last point of its law",
-        (false, true) => "its thickness",
-        _ => "the last point of its law or its thickness",
-    }
+    let said = ends.iter().filter(|own| has(own.0)).map(|own| own.1);
+    let said = list(said);
+    if said.is_empty() { "further than is known of it".to_owned() } else { said.join(" or ") }
 }
 
 fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
@@ -198,7 +200,7 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
                     format!("has {} at {}", in_g().text(peak, DIGITS), in_kpa().text(stress, FEW))
                 }
                 Unmet::Known(stress) => {
-                    format!("is pressed beyond {} at {}", end(drawn), in_kpa().text(stress, FEW))
+                    format!("is pressed {} at {}", end(drawn), in_kpa().text(stress, FEW))
                 }
             };
             let thickest = asked.thicknesses.last().map_or(String::new(), |own| length(*own));
@@ -281,6 +283,18 @@ fn within([low, high]: [f64; 2], own: f64) -> bool {
     (low..=high).contains(&own)
 }
 
+/// Whether there are several thicknesses, and cushions of all of them have the same peaks.
+fn is_unmoved_by_thickness(curves: &[Curve]) -> bool {
+    let of_height = |one: &&[Curve]| {
+        let peaks = |own: &Curve| list(own.points.iter().map(|own| own.peak.to_bits()));
+        one.windows(2).all(|pair| peaks(&pair[0]) == peaks(&pair[1]))
+    };
+    let mut heights = curves.chunk_by(|one, other| one.height.to_bits() == other.height.to_bits());
+    let has_thicknesses =
+        curves.iter().any(|own| own.thickness.to_bits() != curves[0].thickness.to_bits());
+    has_thicknesses && heights.all(|own| of_height(&own))
+}
+
 /// What is to be known of the curves, below the table.
 pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let curves = &drawn.cushion.curves;
@@ -290,6 +304,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let pad = &drawn.cushion.platen.pad;
     let told = [
         (Known::OnStop, format!("meet the stop of {pad}")),
+        (Known::OnRigidStop, format!("meet the rigid stop of {pad}: their peak is infinite")),
         (Known::BeyondLaw, format!("press {pad} beyond the last point of its law")),
         (Known::PressedThrough, format!("press {pad} by more than its thickness")),
         (Known::Unsolved, "could not be solved".to_owned()),
@@ -298,10 +313,16 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let told = told.filter(|own| own.0 > 0);
     let mut notes: Vec<String> =
         list(told.map(|(own, text)| format!("{own} of {} {text}", counted(all, "drop"))));
+    if is_unmoved_by_thickness(curves) {
+        notes.push(format!(
+            "no peak changes with the thickness of {pad}: its law is one of force and deformation; write it as a \
+             material, of stress and strain, with an area"
+        ));
+    }
     let has =
         |place: Place| curves.iter().any(|own| own.best.is_some_and(|own| own.place == place));
     if has(Place::EndOfKnown) {
-        notes.push(format!("→ the peak falls until {pad} is pressed beyond {}", end(drawn)));
+        notes.push(format!("→ the peak falls until {pad} is pressed {}", end(drawn)));
     }
     if has(Place::Low) || has(Place::High) {
         notes.push("≤, ≥ the least peak may lie beyond the end of the range".to_owned());
@@ -313,7 +334,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         notes.push("… the range of stresses ends there, not what keeps the limit".to_owned());
     }
     if ends(Reach::Known) {
-        notes.push(format!("! {pad} is pressed beyond {} there, before the limit", end(drawn)));
+        notes.push(format!("! {pad} is pressed {} there, before the limit", end(drawn)));
     }
     let own = drawn.cushion.platen.stress();
     if curves.iter().filter_map(|own| own.passing).any(|kept| within(kept.stress, own)) {
@@ -323,7 +344,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let ended = rows().filter(|own| !own.is_known).count();
     if ended > 0 {
         notes.push(format!(
-            "{ended} of {} press {pad} beyond {}: no mean is told there",
+            "{ended} of {} press {pad} {}: no mean is told there",
             counted(rows().count(), "row"),
             end(drawn)
         ));

@@ -252,9 +252,9 @@ fn searched(answer: &Answer, best: &Design) -> String {
     }
     let own = best.search;
     let spread = if own.is_grid {
-        format!("all {} of a grid", counted(own.designs, "design"))
+        format!("all {} of a grid and the scene's own", counted(own.designs, "design"))
     } else {
-        format!("{} of a Latin hypercube", counted(own.designs, "design"))
+        format!("{} of a Latin hypercube and the scene's own", counted(own.designs, "design"))
     };
     let feasible = format!("{} of them keep everything", own.feasible);
     let agree = format!("{} of {} searches from the best end here", own.agree, own.starts);

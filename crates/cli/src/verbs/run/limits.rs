@@ -136,7 +136,7 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
 fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
     let (limit, error) = (judged.limit, judged.error());
     let Some(value) = judged.value() else {
-        let is_infinite = measure.time.is_some() && judged.sampled.is_none();
+        let is_infinite = measure.is_infinite() && judged.sampled.is_none();
         return if is_infinite { "is infinite" } else { "is not determined" }.to_owned();
     };
     let unit = unit(measure.kind, measure.unit, limit);

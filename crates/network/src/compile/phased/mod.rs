@@ -38,6 +38,7 @@ use super::{
 };
 use crate::{
     Network, NetworkError, NetworkErrors, Support,
+    elements::Law,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -148,6 +149,19 @@ impl PhasedNetwork {
     /// Number of the part of this path.
     pub fn part_named(&self, name: &str) -> Option<usize> {
         self.parts.iter().position(|&at| self.expansion.primitives[at].name == name)
+    }
+
+    /// Whether what switches has a linear law in each of its phases.
+    pub fn has_linear_phases(&self) -> bool {
+        let is_linear = |law: PhaseLaw| match law {
+            PhaseLaw::Element(own) => !matches!(own.law(), Law::Nonlinear { .. }),
+            _ => true,
+        };
+        let mut all = self.parts.iter().filter_map(|&at| self.phases_of(at));
+        all.all(|own| {
+            let phases = 0..own.names().len();
+            phases.map(|index| own.law(Phase { index, memory: 0.0 })).all(is_linear)
+        })
     }
 
     /// The phases in which parts begin, as far as the network alone tells.
