@@ -6,6 +6,7 @@ use dashpot::analysis::RunReport;
 
 use super::{
     SEED, most_outside,
+    scenes::kinds,
     tally::Tally,
     text::HEAD_MEASURES,
     trial::{Case, Judged, Outcome, beside},
@@ -30,7 +31,8 @@ pub(super) fn judged(seed: u64, scenes: usize) -> Tally {
         }
         let case = Case::changed(seed, at, |text| text.replace(HEAD_MEASURES, "\"hic15\""));
         let mut settings = case.drawn.scene.settings("auto").unwrap();
-        settings.accuracy.default = ACCURACIES[at / 2 % ACCURACIES.len()];
+        // Kinds come by turns as well.
+        settings.accuracy.default = ACCURACIES[at / 2 / kinds().count() % ACCURACIES.len()];
         let begin = Instant::now();
         let Ok(report) = case.solve(&settings) else { continue };
         let time = begin.elapsed();

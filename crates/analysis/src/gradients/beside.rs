@@ -6,6 +6,9 @@ use super::{Derivative, NoDerivative, neighbours::Neighbour, stencil::Stencil};
 /// the accuracy wanted of the measure; of exact solutions and of others.
 const LARGEST_ERROR: [f64; 2] = [1e-2, 10.0];
 
+/// The relative error of a root, twice the true one, up to which a solution to each side is enough.
+const SURE: f64 = 2e-8;
+
 /// A run, itself as its neighbours are solved, and these.
 pub(super) struct Beside<'a> {
     pub(super) run: &'a Neighbour,
@@ -24,6 +27,33 @@ pub(super) struct Beside<'a> {
 impl Beside<'_> {
     /// The derivative of a value.
     pub(super) fn derivative(&self, at: usize, accuracy: f64) -> Result<Derivative, NoDerivative> {
+        let stencil = self.stencil(at)?;
+        let (here, number) = (stencil.values[1], stencil.number);
+        let slope = stencil.slope();
+        let scale = stencil.scale(slope.value);
+        let relative_error = if scale > 0.0 { slope.error * number / scale } else { 0.0 };
+        let is_by_steps = self.steps_error.is_some();
+        if relative_error <= LARGEST_ERROR[usize::from(is_by_steps)] * accuracy {
+            return Ok(Derivative {
+                value: slope.value,
+                error: slope.error,
+                elasticity: (here != 0.0).then(|| slope.value * self.number / here),
+                relative_error,
+            });
+        }
+        Err(self.none(match slope.sides {
+            Some([below, above]) => NoDerivative::TwoSlopes { below, above },
+            None => NoDerivative::Unsettled { relative_error },
+        }))
+    }
+
+    /// Whether three values may be so near a graze that they tell too little of the slope.
+    pub(super) fn is_near_a_graze(&self, at: usize) -> bool {
+        self.stencil(at).is_ok_and(|own| own.error_of_root() > SURE)
+    }
+
+    /// A value at the number and beside it.
+    fn stencil(&self, at: usize) -> Result<Stencil, NoDerivative> {
         let is_exact = self.steps_error.is_none();
         let here = self.here.value(at).map_err(|reason| NoDerivative::NoValue { reason })?;
         let of = |own: &Neighbour| {
@@ -40,22 +70,7 @@ impl Beside<'_> {
         let inner = inner.map(|[one, other]| if sign > 0.0 { [one, other] } else { [other, one] });
         let (step, common) = (self.step, self.steps_error.unwrap_or(0.0));
         let values = [one, here, other];
-        let stencil = Stencil { number, step, values, inner, noise, common };
-        let slope = stencil.slope();
-        let scale = stencil.scale(slope.value);
-        let relative_error = if scale > 0.0 { slope.error * number / scale } else { 0.0 };
-        if relative_error <= LARGEST_ERROR[usize::from(!is_exact)] * accuracy {
-            return Ok(Derivative {
-                value: slope.value,
-                error: slope.error,
-                elasticity: (here != 0.0).then(|| slope.value * self.number / here),
-                relative_error,
-            });
-        }
-        Err(self.none(match slope.sides {
-            Some([below, above]) => NoDerivative::TwoSlopes { below, above },
-            None => NoDerivative::Unsettled { relative_error },
-        }))
+        Ok(Stencil { number, step, values, inner, noise, common })
     }
 
     /// Why there is none: other events, or what else it may be.

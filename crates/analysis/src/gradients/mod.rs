@@ -38,9 +38,7 @@ const TIGHTER: f64 = 1e-3;
 const TIGHTEST: f64 = 1e-13;
 /// Errors of stepping methods in parts of their tolerance.
 const ERRORS_PER_TOLERANCE: f64 = 1e2;
-/// Below this relative error, which is twice the true one beside a graze, a solution to each side is enough, …
-const SURE: f64 = 2e-8;
-/// … and below this no better one is looked for by smaller steps.
+/// Below this relative error no better one is looked for.
 const GOOD: f64 = 1e-7;
 
 /// How the neighbours of a run are solved.
@@ -177,47 +175,51 @@ impl Search<'_> {
 
     /// Whether a smaller step may give a better derivative.
     fn is_open(&self, own: &Result<Derivative, NoDerivative>) -> bool {
-        is_above(GOOD, own) && (self.plan.is_exact || own.is_err())
+        match own {
+            Ok(own) => self.plan.is_exact && own.relative_error > GOOD,
+            Err(own) => !matches!(own, NoDerivative::NoValue { .. }),
+        }
     }
 
     /// The derivatives with respect to these numbers by steps of this part of them, and how many solutions they took.
     fn at(&self, numbers: &[usize], step: f64) -> (Vec<Found>, usize) {
         let outer = self.solved(numbers, step);
         let is_close = |(number, sides): (usize, &[Neighbour; 2])| {
+            let beside = self.beside((number, step), sides, None);
+            let is_near_a_graze = |at: usize| beside.is_near_a_graze(at);
             self.is_sharp
                 && sides.iter().all(|own| own.is_like(&self.here))
-                && !self.beside(number, step, sides, None).iter().any(|own| is_above(SURE, own))
+                && !(0..self.here.count()).any(is_near_a_graze)
         };
         let pairs = || numbers.iter().copied().zip(&outer);
         let close: Vec<bool> = pairs().map(is_close).collect();
         let of_inner: Vec<usize> =
             numbers.iter().zip(&close).filter(|own| !*own.1).map(|own| *own.0).collect();
         let mut inner = self.solved(&of_inner, 0.5 * step).into_iter();
+        let accuracy = |at: usize| {
+            let all = &self.plan.settings.accuracy;
+            self.keys.get(at).map_or(all.default, |key| all.of(key))
+        };
         let all = pairs().zip(close).map(|((number, sides), is_close)| {
             let near = if is_close { None } else { inner.next() };
-            self.beside(number, step, sides, near.as_ref())
+            let beside = self.beside((number, step), sides, near.as_ref());
+            (0..self.here.count()).map(|at| beside.derivative(at, accuracy(at))).collect()
         });
         let all = all.collect();
         (all, 2 * (numbers.len() + of_inner.len()))
     }
 
-    /// The derivatives with respect to a number by the solutions beside it.
-    fn beside(
-        &self,
-        number: usize,
-        step: f64,
-        sides: &[Neighbour; 2],
-        near: Option<&[Neighbour; 2]>,
-    ) -> Found {
+    /// The run, and what is solved a step, and half a step, beside a number.
+    fn beside<'a>(
+        &'a self,
+        (number, step): (usize, f64),
+        sides: &'a [Neighbour; 2],
+        near: Option<&'a [Neighbour; 2]>,
+    ) -> Beside<'a> {
         let Self { run, here, .. } = self;
         let number = self.numbers[number].value;
         let steps_error = self.plan.settings.rtol.map(|rtol| ERRORS_PER_TOLERANCE * rtol);
-        let beside = Beside { run, here, sides, near, number, step, steps_error };
-        let accuracy = |at: usize| {
-            let all = &self.plan.settings.accuracy;
-            self.keys.get(at).map_or(all.default, |key| all.of(key))
-        };
-        (0..here.count()).map(|at| beside.derivative(at, accuracy(at))).collect()
+        Beside { run, here, sides, near, number, step, steps_error }
     }
 
     /// The solutions a step below and above each of these numbers.
@@ -236,14 +238,6 @@ impl Search<'_> {
             }
         };
         neighbours(&sides.collect::<Vec<_>>(), self.threads, &solve)
-    }
-}
-
-/// Whether the error exceeds this part of the value, or differences have not settled.
-fn is_above(most: f64, own: &Result<Derivative, NoDerivative>) -> bool {
-    match own {
-        Ok(own) => own.relative_error > most,
-        Err(own) => !matches!(own, NoDerivative::NoValue { .. }),
     }
 }
 

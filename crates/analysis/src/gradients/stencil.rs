@@ -39,6 +39,28 @@ impl Stencil {
         self.values[1].abs().max(slope.abs() * self.number)
     }
 
+    /// The third derivative that three values tell of, times the number's third power, if the value is the root of the
+    /// distance to where there is none; 0 where it bends less than it slopes.
+    fn rooted(&self) -> f64 {
+        let [below, here, above] = self.values;
+        let change = (above - below).abs() / (2.0 * self.step);
+        let bend = ((above - here) - (here - below)).abs();
+        let ratio = (bend - NOISES * self.noise).max(0.0) / (2.0 * self.step * self.step);
+        let steep = (ratio / change).min(0.25 / self.step);
+        if steep > 1.0 { ratio * steep } else { 0.0 }
+    }
+
+    /// What of the relative error of three values is that of such a root, about twice of it.
+    pub(super) fn error_of_root(&self) -> f64 {
+        let rooted = self.rooted();
+        let change = (self.values[2] - self.values[0]).abs() / (2.0 * self.step);
+        if rooted > 0.0 {
+            SAFETY * self.step * self.step * rooted / self.values[1].abs().max(change)
+        } else {
+            0.0
+        }
+    }
+
     /// The slope. With values at half a step its error is taken from them: of the step, by which the slopes at both
     /// steps differ, and of a kink, which keeps the difference of the slopes below and above from falling with the
     /// step. Without them the measure must be known to be smooth: its third derivative is then taken as no larger
@@ -51,11 +73,7 @@ impl Stencil {
         let bend = (above - here) - (here - below);
         let Some([near_below, near_above]) = self.inner else {
             let scale = self.scale(central);
-            let bent = (bend.abs() - NOISES * self.noise).max(0.0);
-            let ratio = bent / (2.0 * self.step * self.step);
-            let steep = (ratio / (central.abs() * self.number)).min(0.25 / self.step);
-            let curved = if steep > 1.0 { ratio * steep } else { 0.0 };
-            let cut = SAFETY * self.step * self.step * scale.max(curved) / self.number;
+            let cut = SAFETY * self.step * self.step * scale.max(self.rooted()) / self.number;
             let error = cut + self.noise / step + self.common * scale / self.number;
             return Slope { value: central, error, sides: None };
         };

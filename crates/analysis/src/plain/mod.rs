@@ -53,7 +53,8 @@ pub(crate) fn solve(
     let scene = Scene::of(network, assembly, settings)?;
     let mut told = match scene.released.states() {
         0..=4 => solved::<4>(&scene),
-        5..=8 => solved::<8>(&scene),
+        5..=6 => solved::<6>(&scene),
+        7..=8 => solved::<8>(&scene),
         _ => solved::<MOST_STATES>(&scene),
     }?;
     let budget = Budget::of(settings.budget);

@@ -128,21 +128,18 @@ pub fn undefined_measures(
 /// The method that `auto` chooses for a run of `duration` \[s\], and why.
 pub fn choice(assembly: &Assembly, duration: f64) -> (&'static str, String) {
     let (method, why) = methods::Auto::choose(&assembly.system, &Run::to(duration));
-    let is_linear = assembly.switching.as_ref().is_none_or(|own| own.has_linear_phases());
-    if method.is_exact() && !is_linear {
-        let why = "a law that is reached later is not linear, as `exact` would find on its way";
-        return (methods::Bdf.name(), why.to_owned());
-    }
     (method.name(), reason(assembly, method.as_ref(), why))
 }
 
 /// Why a method fits, of what switches said for all of the run.
 fn reason(assembly: &Assembly, method: &dyn Method, why: String) -> String {
-    if assembly.switching.is_none() || !method.is_exact() {
+    let Some(phased) = assembly.switching.as_ref().filter(|_| method.is_exact()) else {
         return why;
-    }
+    };
     let states = assembly.system.states();
-    format!("between switchings the scene is linear, with {states} states at first")
+    let others =
+        if phased.has_linear_phases() { "" } else { ", as long as no law is reached that is not" };
+    format!("between switchings the scene is linear, with {states} states at first{others}")
 }
 
 fn choose(

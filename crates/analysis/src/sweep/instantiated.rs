@@ -88,6 +88,12 @@ impl<'g> Plan<'g> {
         } else {
             None
         };
+        // Other masses may make the force dip, and what is known of neighbours tells little of a point near that.
+        let has_dips = !parametric.is_linear() && parametric.masses() > 1;
+        let estimates = match estimates {
+            Estimates::Some if has_dips => Estimates::All,
+            own => own,
+        };
         let wishes = columns.iter().map(|column| settings.accuracy.of(&column.key)).collect();
         let table = Table::of(&parametric, grid, pose, duration, threads)?;
         let element = first.network.connections()[struck].name.clone();

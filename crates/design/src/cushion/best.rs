@@ -3,7 +3,7 @@
 use dashpot_numerics::extrema::maximum_within;
 
 use super::{
-    CushionPoint, NoCushion,
+    CushionPoint, Known, NoCushion,
     curves::{Curve, Tests},
     edge::{Seen, edge, surely},
 };
@@ -179,7 +179,8 @@ fn end<'c>(
         let [kept, beyond] = edge(last, here, NEAREST, |log| drop(log).excess(limit));
         let held = |log: f64| tests.drop(curve.height, curve.thickness, log.exp()).keeps(limit);
         let sure = surely(kept.0, last.0, NEAREST, held);
-        let reach = if beyond.1.is_finite() { Reach::Limit } else { Reach::Known };
+        let is_exceeded = beyond.1.is_finite() || drop(beyond.0).known == Known::Infinite;
+        let reach = if is_exceeded { Reach::Limit } else { Reach::Known };
         return (sure.exp(), reach);
     }
     (last.0.exp(), Reach::Range)

@@ -3,9 +3,11 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_analysis::{
-    Band, Solve, Warning,
+    Band, MeasureReport, Solve, Warning,
     measures::{PeakAcceleration, PeakDeformation},
-    sweep::{Column, Grid, Pose, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep},
+    sweep::{
+        Column, Gap, Grid, Pose, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep,
+    },
 };
 use dashpot_network::{Detail, Network, effects::Stop, parameters::Kind as _};
 
@@ -194,6 +196,12 @@ impl<'t> Tests<'t> {
         let stop = stop.map(|own| own.travel.length / thickness);
         let column = |key: String| Self::column(report, &key);
         let (peak_of, depth_of) = (column(self.peak_key()), column(self.depth_key()));
+        let peak_key = self.peak_key();
+        let is_infinite = |place: usize| {
+            let of = |gap: &&Gap| gap.point == place && gap.is_infinite;
+            let key = |gap: &Gap| gap.column.map(|at| &report.columns[at].key);
+            report.gaps.iter().filter(of).any(|gap| key(gap) == Some(&peak_key))
+        };
         let point = |(at, &stress): (usize, &f64)| {
             let place = first + at;
             let strain = depth_of(&report.values, place) / thickness;
@@ -204,7 +212,7 @@ impl<'t> Tests<'t> {
                 peak,
                 error: peak_of(&report.errors, place),
                 strain,
-                known: known(peak, strain, stop, is_beyond),
+                known: known((peak, is_infinite(place)), strain, stop, is_beyond),
             }
         };
         Curve {
@@ -293,7 +301,9 @@ impl<'t> Tests<'t> {
             let depth = value(&self.depth_key())?;
             let is_beyond = run.warnings.iter().any(Warning::is_beyond_known);
             let strain = depth.0 / thickness;
-            let known = known(peak, strain, gap.map(|own| own / thickness), is_beyond);
+            let is_infinite = run.measure(&self.peak_key()).is_some_and(MeasureReport::is_infinite);
+            let stop = gap.map(|own| own / thickness);
+            let known = known((peak, is_infinite), strain, stop, is_beyond);
             let reach = depth.0 + if depth.1.is_finite() { depth.1 } else { 0.0 };
             Some((CushionPoint { stress, peak, error, strain, known }, reach))
         };

@@ -7,8 +7,8 @@ pub enum Known {
     Whole,
     /// The cushion meets its stop.
     OnStop,
-    /// It meets a rigid one, where the peak is infinite.
-    OnRigidStop,
+    /// Masses meet, as on a rigid stop, so that the peak is infinite.
+    Infinite,
     /// A measured law is followed beyond its last point.
     BeyondLaw,
     /// The cushion is pressed by more than its thickness.
@@ -18,12 +18,12 @@ pub enum Known {
 }
 
 impl Known {
-    /// Its word: `whole`, `on-stop`, `on-rigid-stop`, `beyond-law`, `pressed-through` or `unsolved`.
+    /// Its word: `whole`, `on-stop`, `infinite`, `beyond-law`, `pressed-through` or `unsolved`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Whole => "whole",
             Self::OnStop => "on-stop",
-            Self::OnRigidStop => "on-rigid-stop",
+            Self::Infinite => "infinite",
             Self::BeyondLaw => "beyond-law",
             Self::PressedThrough => "pressed-through",
             Self::Unsolved => "unsolved",
@@ -70,14 +70,17 @@ impl CushionPoint {
     }
 }
 
-/// What lies on a rigid stop is there but for this part of the way.
-const AT: f64 = 1e-9;
-
 /// How far a drop is known that strains the cushion by so much, with the strain of its stop.
-pub(super) fn known(peak: f64, strain: f64, stop: Option<f64>, is_beyond: bool) -> Known {
-    if peak.is_nan() {
-        let is_on_stop = stop.is_some_and(|stop| strain >= stop * (1.0 - AT));
-        if is_on_stop { Known::OnRigidStop } else { Known::Unsolved }
+pub(super) fn known(
+    (peak, is_infinite): (f64, bool),
+    strain: f64,
+    stop: Option<f64>,
+    is_beyond: bool,
+) -> Known {
+    if is_infinite {
+        Known::Infinite
+    } else if peak.is_nan() {
+        Known::Unsolved
     } else if is_beyond && strain >= 1.0 {
         Known::PressedThrough
     } else if is_beyond {

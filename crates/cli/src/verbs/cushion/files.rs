@@ -120,7 +120,7 @@ fn curve(own: &Curve) -> CushionCurve {
     let place = |stress: f64, peak: f64| (in_kpa().of(stress), in_g().of(peak));
     let points = list(own.points.iter().map(|own| {
         let mark = match own.known {
-            Known::Whole | Known::OnRigidStop | Known::Unsolved => CushionMark::Known,
+            Known::Whole | Known::Infinite | Known::Unsolved => CushionMark::Known,
             Known::OnStop => CushionMark::OnStop,
             Known::BeyondLaw | Known::PressedThrough => CushionMark::Beyond,
         };

@@ -53,20 +53,20 @@ pub(crate) struct CushionArguments {
     #[arg(long, value_name = "NAME")]
     pad: Option<String>,
     /// Heights of the drop, such as "30,60,90 cm" [default: the scene's].
-    #[arg(long, value_name = "LENGTHS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTHS")]
     heights: Option<String>,
     /// Thicknesses of the cushion, such as "2..10 cm,5" [default: the scene's].
-    #[arg(long, value_name = "LENGTHS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTHS")]
     thickness: Option<String>,
     /// Static stresses, such as "1..20 kPa,40,log" [default: 40 about the best ones].
-    #[arg(long, value_name = "PRESSURES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "PRESSURES")]
     stress: Option<String>,
     /// The most that the peak may be, such as "50 g" or "parcel.peak-acceleration<=50 g" [default: the scene's limit on the
     /// peak acceleration of the mass].
-    #[arg(long, value_name = "ACCELERATION", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ACCELERATION")]
     limit: Option<String>,
     /// The range of static stresses over which the thinnest cushion has to keep the limit, such as "4..9 kPa".
-    #[arg(long, value_name = "PRESSURES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "PRESSURES")]
     over: Option<String>,
     /// Exits with 4 unless, from each height, a cushion that was asked for keeps the limit: over the range of `--over`,
     /// else at any static stress.

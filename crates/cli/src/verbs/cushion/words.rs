@@ -130,8 +130,7 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
         return line("PASS", format!("{} keep it at {low} to {high}", length(own.thickness)));
     }
     let Some((own, Best { point, place, .. })) = least(curves) else {
-        let pressed =
-            format!("every drop presses {} beyond {}", drawn.cushion.platen.pad, end(drawn));
+        let pressed = format!("every drop presses {} {}", drawn.cushion.platen.pad, end(drawn));
         return line("FAIL", pressed);
     };
     // The least peak may lie beyond the stresses, or within the error of what was found.
@@ -160,7 +159,7 @@ fn end(drawn: &Drawn) -> String {
     let ends = [
         (Known::BeyondLaw, "beyond the last point of its law"),
         (Known::PressedThrough, "beyond its thickness"),
-        (Known::OnRigidStop, "onto its rigid stop"),
+        (Known::Infinite, "to where its peak is infinite"),
     ];
     let is_end = |own: &&CushionPoint| ends.iter().any(|end| end.0 == own.known);
     let first = |own: &Curve| own.points.iter().find(is_end).map(|own| own.known);
@@ -290,9 +289,10 @@ fn is_unmoved_by_thickness(curves: &[Curve]) -> bool {
         one.windows(2).all(|pair| peaks(&pair[0]) == peaks(&pair[1]))
     };
     let mut heights = curves.chunk_by(|one, other| one.height.to_bits() == other.height.to_bits());
+    let has_peak = |own: &Curve| own.points.iter().any(|own| own.peak.is_finite());
     let has_thicknesses =
         curves.iter().any(|own| own.thickness.to_bits() != curves[0].thickness.to_bits());
-    has_thicknesses && heights.all(|own| of_height(&own))
+    has_thicknesses && curves.iter().all(has_peak) && heights.all(|own| of_height(&own))
 }
 
 /// What is to be known of the curves, below the table.
@@ -304,7 +304,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let pad = &drawn.cushion.platen.pad;
     let told = [
         (Known::OnStop, format!("meet the stop of {pad}")),
-        (Known::OnRigidStop, format!("meet the rigid stop of {pad}: their peak is infinite")),
+        (Known::Infinite, "have an infinite peak: masses meet, as on a rigid stop".to_owned()),
         (Known::BeyondLaw, format!("press {pad} beyond the last point of its law")),
         (Known::PressedThrough, format!("press {pad} by more than its thickness")),
         (Known::Unsolved, "could not be solved".to_owned()),
@@ -315,7 +315,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         list(told.map(|(own, text)| format!("{own} of {} {text}", counted(all, "drop"))));
     if is_unmoved_by_thickness(curves) {
         notes.push(format!(
-            "no peak changes with the thickness of {pad}: its law is one of force and deformation; write it as a \
+            "no peak changes with the thickness of {pad}: a law of force and deformation has none; write it as a \
              material, of stress and strain, with an area"
         ));
     }
@@ -374,7 +374,7 @@ fn batches_notes(drawn: &Drawn) -> Vec<String> {
     let ended = bands().filter(|own| own.without > 0).count();
     let ended = (ended > 0).then(|| {
         format!(
-            "at {ended} of {} a design presses {} beyond {}: no band is told there",
+            "at {ended} of {} a design presses {} {}: no band is told there",
             counted(bands().count(), "drop"),
             drawn.cushion.platen.pad,
             end(drawn)

@@ -74,7 +74,7 @@ pub(crate) struct SignalArguments {
     to: Option<f64>,
     /// Speed of approach of the body that an accelerometer is on, at the beginning of the record: gives its displacement,
     /// its rebound and the coefficient of restitution.
-    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, value_parser = speed)]
+    #[arg(long, value_name = "SPEED", value_parser = speed)]
     velocity: Option<f64>,
     /// Its mass: gives energy taken, returned and absorbed.
     #[arg(long, value_name = "MASS", value_parser = mass, requires = "velocity")]
