@@ -219,7 +219,8 @@ fn derivatives_of_generated_scenes_by_steps() {
 #[ignore = "takes minutes"]
 fn full() {
     let exact = campaign(500, false, "exact", ("auto", 1e-3), 1);
-    assert!(exact.worst < 1e-8, "{exact:?}");
+    // Beside a graze that is all that two solutions may be off by before two more are asked for.
+    assert!(exact.worst < 2e-8 && exact.outside == 0, "{exact:?}");
     for (method, count) in [("bdf", 60), ("dop853", 250), ("tsit45", 60)] {
         let tally = campaign(count, false, method, ("auto", 1e-3), 2);
         assert!(tally.worst < 1e-2, "{tally:?}");
