@@ -106,15 +106,6 @@ impl From<Limits> for String {
     }
 }
 
-/// More points are not solved in one sweep.
-pub(crate) const MOST_POINTS: usize = 10_000_000;
-
-/// The number of designs of a sample.
-pub(crate) fn samples(text: &str) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (1..=MOST_POINTS).contains(count));
-    count.ok_or_else(|| format!("a whole number from 1 to {MOST_POINTS} is wanted"))
-}
-
 /// When something is done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum When {

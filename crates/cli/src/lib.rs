@@ -6,6 +6,7 @@
 mod args;
 mod around;
 mod cancel;
+mod counts;
 mod error;
 mod folder;
 mod host;

@@ -147,9 +147,9 @@ pub(crate) enum CliError {
     /// A named value that is both set and varied.
     #[error("`{name}` is set and varied: leave out one of both")]
     SetAndVaried { name: String },
-    /// A grid that is too large.
-    #[error("these are more than {most} points")]
-    TooManyPoints { most: usize },
+    /// More of something than there may be.
+    #[error("these are more than {most} {of}")]
+    TooMany { of: &'static str, most: usize },
     /// A sweep that cannot be done.
     #[error(transparent)]
     Sweep(SweepError),

@@ -15,17 +15,13 @@ use dashpot_scene::{
 use super::CushionArguments;
 use crate::{
     around::{Around, with_scatter},
+    counts::{CURVE_POINTS, CURVES},
     error::CliError,
     input::{Input, setting},
     output::list,
     varied::{Varied, messages, point, posed},
     verbs::run::scatter::ScatterArguments,
 };
-
-/// More curves are not drawn.
-const MOST_CURVES: usize = 200;
-/// More points of a curve are not solved.
-const MOST_POINTS: usize = 10_000;
 
 /// What is wanted of a scene.
 pub(super) struct Wanted {
@@ -62,10 +58,8 @@ impl Wanted {
         let over = pressures("--over", arguments.over.as_deref())?;
         let over = over.map(|own| [own[0], own[own.len() - 1]]);
         let limit = limit(arguments, scene, &platen)?;
-        let is_too_much = heights.len().saturating_mul(thicknesses.len()) > MOST_CURVES;
-        if is_too_much || stresses.len() > MOST_POINTS {
-            return Err(CliError::TooManyPoints { most: MOST_CURVES * MOST_POINTS });
-        }
+        CURVES.check(heights.len().saturating_mul(thicknesses.len()), "curves")?;
+        CURVE_POINTS.check(stresses.len(), "points of a curve")?;
         if over.is_some() && limit.is_none() {
             let reason =
                 "it is over this range that a limit has to be kept: give one, `--limit \"50 g\"`";

@@ -19,7 +19,8 @@ use serde::Serialize;
 
 use self::{asked::Wanted, batches::Batches};
 use crate::{
-    args::{SceneArguments, method_names, probability, samples},
+    args::{SceneArguments, method_names, probability},
+    counts::SCATTERED_SCENES,
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
@@ -83,7 +84,7 @@ pub(crate) struct CushionArguments {
     creep: Vec<String>,
     /// So many scattered designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": bands of the
     /// curves, and how sure the thinnest cushion is.
-    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 100)]
+    #[arg(long, value_name = "NUMBER", value_parser = SCATTERED_SCENES.read(), default_value_t = 100)]
     scatter: usize,
     /// Which of them are drawn; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]

@@ -9,15 +9,18 @@ use super::{
     scenes::Test,
     total,
 };
-use crate::{error::CliError, output::list, varied::Varied};
+use crate::{
+    counts::{CHOICES, DESIGNS_OF_CHOICES},
+    error::CliError,
+    output::list,
+    varied::Varied,
+};
 
 /// What `--solve-for` looks at, in parts of what the scene has.
 const AROUND: [f64; 2] = [0.1, 10.0];
 /// Bounds that are offered, in parts of what the scene has, and their digits.
 const AROUND_USUAL: [f64; 2] = [0.5, 2.0];
 const FEW: usize = 3;
-/// So many choices are tried at most.
-const MOST: usize = 1000;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -90,9 +93,9 @@ impl Asked {
             let reason = format!("`{name}` is made least already");
             return Err(CliError::WrongSetting { name: "--and".to_owned(), reason });
         }
-        if asked.count() > MOST {
-            return Err(CliError::TooManyPoints { most: MOST });
-        }
+        CHOICES.check(asked.count(), "choices")?;
+        let designs = asked.count().saturating_mul(arguments.sample);
+        DESIGNS_OF_CHOICES.check(designs, "designs of `--sample` in all choices")?;
         Ok(asked)
     }
 

@@ -36,7 +36,8 @@ use super::run::{
     scatter::{self, ScatterArguments},
 };
 use crate::{
-    args::{LimitArguments, SceneArguments, method_names, probability, samples},
+    args::{LimitArguments, SceneArguments, method_names, probability},
+    counts::{DESIGNS, FRONT_POINTS, SCATTERED_SCENES},
     error::{CliError, Status},
     input::Input,
     out::OutArguments,
@@ -90,7 +91,7 @@ pub(crate) struct DesignArguments {
     #[arg(long, value_name = "NAME", requires = "least")]
     and: Option<String>,
     /// Points of that front.
-    #[arg(long, value_name = "NUMBER", default_value_t = 9)]
+    #[arg(long, value_name = "NUMBER", value_parser = FRONT_POINTS.read(), default_value_t = 9)]
     points: usize,
     /// The least value of this number that keeps the limits, between a tenth and ten times what the scene has; stands
     /// for `--vary` and `--least`.
@@ -105,7 +106,7 @@ pub(crate) struct DesignArguments {
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, conflicts_with = "and")]
     robust: Option<f64>,
     /// So many scattered designs are drawn around what was found.
-    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = 500)]
+    #[arg(long, value_name = "NUMBER", value_parser = SCATTERED_SCENES.read(), default_value_t = 500)]
     scatter: usize,
     /// Which of them are drawn; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
@@ -118,7 +119,7 @@ pub(crate) struct DesignArguments {
     method: Option<String>,
     /// Designs that are spread over the bounds before the search: a grid for one or two numbers, a Latin hypercube for
     /// more.
-    #[arg(long, value_name = "NUMBER", default_value_t = 400)]
+    #[arg(long, value_name = "NUMBER", value_parser = DESIGNS.read(), default_value_t = 400)]
     sample: usize,
     #[command(flatten)]
     out: OutArguments,
@@ -143,9 +144,6 @@ impl DesignArguments {
         if self.least.is_none() {
             return wrong("--least", "say what is made least: one of what varies, or a measure");
         }
-        if self.and.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
-            return wrong("--points", "a front has 2 to 1000 points");
-        }
         Ok(())
     }
 
@@ -154,9 +152,6 @@ impl DesignArguments {
         Effort { designs: self.sample.max(2), threads, ..Effort::default() }
     }
 }
-
-/// More points of a front are not sought.
-const MOST_POINTS: usize = 1000;
 
 /// Searches the best design.
 pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<Status, CliError> {

@@ -33,6 +33,7 @@ use self::{
 };
 use crate::{
     args::{Switch, ValueArguments, frequency_class, paddings, share, shift},
+    counts::STARTS,
     error::{CliError, Status},
     folder::Staged,
     input::Input,
@@ -116,7 +117,7 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "WHEN", default_value = "on")]
     robust: Switch,
     /// From how many starts numbers of a scene are searched: its own, and others over the bounds.
-    #[arg(long, value_name = "NUMBER", default_value_t = 5)]
+    #[arg(long, value_name = "NUMBER", value_parser = STARTS.read(), default_value_t = 5)]
     starts: usize,
     /// The seed of these starts.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]

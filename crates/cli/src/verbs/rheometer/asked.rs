@@ -4,10 +4,8 @@ use dashpot_analysis::rheometer::PROTOCOLS;
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, registered};
 
 use super::{RheometerArguments, Units};
-use crate::{error::CliError, input::setting};
+use crate::{counts::VARIANTS, error::CliError, input::setting};
 
-/// Combinations of values of one test; more are no table any more.
-const MOST_VARIANTS: usize = 24;
 /// Points of a loop that is compared with a measured one: straight lines between them are good to some 1e-7.
 const POINTS_BESIDE: f64 = 4000.0;
 
@@ -103,9 +101,7 @@ impl Variant<'_> {
 pub(super) fn variants<'a>(test: &str, given: &[Given<'a>]) -> Result<Vec<Variant<'a>>, CliError> {
     let mut all = vec![Variant::default()];
     for own in given.iter().filter(|own| has_parameter(test, own.name)) {
-        if all.len().saturating_mul(own.values.len()) > MOST_VARIANTS {
-            return Err(CliError::TooManyPoints { most: MOST_VARIANTS });
-        }
+        VARIANTS.check(all.len().saturating_mul(own.values.len()), "variants of a test")?;
         let with = |before: &Variant<'a>, &(text, value): &(&'a str, f64)| {
             let mut next = before.clone();
             next.given.push((own.name, value));

@@ -16,7 +16,7 @@ use super::{
     verdict::Line,
 };
 use crate::{
-    args::samples,
+    counts::SCATTERED,
     error::CliError,
     input::load,
     numbers::{self, MOST_DIGITS, Unit, rounded},
@@ -37,7 +37,7 @@ const SEED: u64 = 1;
 #[derive(Debug, Clone, Copy, Args)]
 pub struct ScatterArguments {
     /// So many designs are drawn where numbers of the scene have scatter, such as "20 ± 2 MN/m": a Latin hypercube.
-    #[arg(long, value_name = "NUMBER", value_parser = samples, default_value_t = DESIGNS)]
+    #[arg(long, value_name = "NUMBER", value_parser = SCATTERED.read(), default_value_t = DESIGNS)]
     sample: usize,
     /// Which designs are drawn; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", default_value_t = SEED)]

@@ -16,7 +16,8 @@ use super::{
     varied::Varied,
 };
 use crate::{
-    args::{LimitArguments, SceneArguments, When, budget, method_names, samples, share},
+    args::{LimitArguments, SceneArguments, When, budget, method_names, share},
+    counts::SWEEP_POINTS,
     error::CliError,
     folder::Folder,
 };
@@ -57,7 +58,7 @@ pub(crate) struct SweepArguments {
     pub(super) points: Option<PathBuf>,
     /// So many designs in place of all combinations: a Latin hypercube of the ranges; of a list, and of a range
     /// with a count, each value is taken equally often.
-    #[arg(long, value_name = "NUMBER", requires = "vary", value_parser = samples)]
+    #[arg(long, value_name = "NUMBER", requires = "vary", value_parser = SWEEP_POINTS.read())]
     pub(super) sample: Option<usize>,
     /// Which designs `--sample` takes; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", requires = "sample", default_value_t = 1)]

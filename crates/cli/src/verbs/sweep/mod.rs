@@ -41,7 +41,8 @@ use self::{
     words::{notes, summary},
 };
 use crate::{
-    args::{MOST_POINTS as MOST, When},
+    args::When,
+    counts::SWEEP_POINTS,
     error::{CliError, Status},
     folder::Staged,
     input::{Input, title},
@@ -182,7 +183,8 @@ impl Asked {
         let is_named =
             |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
         let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
-        let grid = varied.grid().ok_or(CliError::TooManyPoints { most: MOST })?;
+        let grid =
+            varied.grid().ok_or(CliError::TooMany { of: "points", most: SWEEP_POINTS.most() })?;
         Ok(Self { input, set, scene, known: checked.warnings.list, varied, grid })
     }
 }

@@ -17,6 +17,7 @@ use super::{
     solved_or_merged,
 };
 use crate::{
+    counts::SHARDS,
     error::{CliError, Status},
     folder::{RESULT, Staged},
     input::title,
@@ -118,14 +119,11 @@ impl fmt::Display for Place {
     }
 }
 
-/// More shards are not numbered.
-const MOST: usize = 1_000_000;
-
 /// `3/10`.
 pub(super) fn place(text: &str) -> Result<Place, String> {
     let both = text.split_once('/').map(|own| (own.0.trim().parse(), own.1.trim().parse()));
     match both {
-        Some((Ok(number), Ok(of))) if (1..=of).contains(&number) && of <= MOST => {
+        Some((Ok(number), Ok(of))) if (1..=of).contains(&number) && SHARDS.allows(of) => {
             Ok(Place { number, of })
         }
         Some((Ok(0), Ok(of))) => Err(format!("shards are counted from 1: 1/{of} is the first")),

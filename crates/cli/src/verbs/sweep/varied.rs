@@ -6,7 +6,7 @@ use dashpot_analysis::sweep::Grid;
 use dashpot_scene::{DataTable, LeftOut, Listed, ListedFault, TunableFault, Tunables, Variation};
 
 use super::SweepArguments;
-use crate::{args::MOST_POINTS as MOST, error::CliError, input::Input, terminal::note};
+use crate::{counts::SWEEP_POINTS, error::CliError, input::Input, terminal::note};
 
 /// What varies, and how.
 pub(super) struct Varied {
@@ -115,7 +115,7 @@ impl Varied {
             Form::Mixed(all) => Grid::new(vec![all.len()]),
             Form::Listed | Form::Sampled => Grid::new(vec![self.variations[0].len()]),
         };
-        grid.filter(|grid| grid.len() <= MOST)
+        grid.filter(|grid| grid.len() <= SWEEP_POINTS.most())
     }
 
     /// Which of its values each parameter takes at a point of the grid.
