@@ -8,11 +8,13 @@
 //! - [`isotonic`]: the nearest sequence that never falls;
 //! - [`normal`]: the normal distribution and its quantiles;
 //! - [`Stream`]: numbers that look random;
+//! - [`decompositions`]: Schur form, eigenvalues and singular values, with limits of their steps;
 //! - [`small`] and [`exponential`]: matrices on the stack, exponentials of any real matrix;
 //! - [`LinearForm`]: sparse linear forms.
 
 mod accumulator;
 pub mod chebyshev;
+pub mod decompositions;
 pub mod dop853;
 mod double_double;
 pub mod exponential;

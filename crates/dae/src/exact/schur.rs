@@ -1,6 +1,7 @@
 //! Complex Schur form `A = Q T Qᴴ` with upper triangular `T`.
 
-use nalgebra::{DMatrix, Schur};
+use dashpot_numerics::decompositions;
+use nalgebra::DMatrix;
 
 use super::{Complex, components::Components};
 
@@ -12,16 +13,6 @@ pub(super) struct ComplexSchur {
     /// `T`.
     pub(super) triangle: DMatrix<Complex>,
 }
-
-/// Shifts of the eigenvalues and thresholds of the iteration, both relative. It judges by the sizes
-/// of the eigenvalues, so without a shift it keeps small ones accurate, but does not always end where
-/// several are zero.
-const ATTEMPTS: [(f64, f64); 4] = [
-    (0.0, f64::EPSILON),
-    (0.7, f64::EPSILON),
-    (-1.3, 4.0 * f64::EPSILON),
-    (1.9, 64.0 * f64::EPSILON),
-];
 
 impl ComplexSchur {
     /// The form of a real matrix, `None` where the iteration does not converge.
@@ -57,15 +48,7 @@ impl ComplexSchur {
     /// The form of a matrix all of whose states act on each other.
     fn of_group(a: &DMatrix<f64>) -> Option<Self> {
         let size = a.nrows();
-        let norm = a.amax();
-        let attempt = |&(shift, eps): &(f64, f64)| {
-            let mut shifted = a.clone();
-            (0..size).for_each(|i| shifted[(i, i)] += shift * norm);
-            let (basis, mut triangle) = Schur::try_new(shifted, eps, 100 + 60 * size)?.unpack();
-            (0..size).for_each(|i| triangle[(i, i)] -= shift * norm);
-            Some((basis, triangle))
-        };
-        let (basis, triangle) = ATTEMPTS.iter().find_map(attempt)?;
+        let (basis, triangle) = decompositions::schur(a)?;
         let complex = |x: f64| Complex::new(x, 0.0);
         let mut schur = Self { basis: basis.map(complex), triangle: triangle.map(complex) };
         for m in (1..size).rev() {

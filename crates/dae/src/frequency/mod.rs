@@ -10,7 +10,8 @@
 
 mod factors;
 
-use nalgebra::{Complex, DMatrix, Schur};
+use dashpot_numerics::decompositions::eigenvalues;
+use nalgebra::{Complex, DMatrix};
 use thiserror::Error;
 
 use self::factors::{Entries, Factors};
@@ -253,8 +254,6 @@ fn thresholds(
 
 /// More unknowns are too many for the poles to be looked for.
 pub const MOST_UNKNOWNS: usize = 400;
-/// Thresholds of the iteration that are tried in turn.
-const THRESHOLDS: [f64; 3] = [1.0, 16.0, 256.0];
 
 /// The poles \[rad/s\] of a linear system: it swings freely with `e^{pt}` for each of them. They are
 /// in no order, and good to about a rounding of the largest one.
@@ -265,19 +264,8 @@ pub fn poles(system: &System) -> Option<Vec<Complex<f64>>> {
     if !system.is_linear() || system.len() > MOST_UNKNOWNS {
         return None;
     }
-    let matrix = reduced(system)?;
-    if matrix.is_empty() {
-        return Some(Vec::new());
-    }
-    let size = matrix.nrows();
-    let found = THRESHOLDS.iter().find_map(|&threshold| {
-        Schur::try_new(matrix.clone(), threshold * f64::EPSILON, 100 + 60 * size)
-    })?;
-    let poles: Vec<Complex<f64>> = found
-        .complex_eigenvalues()
-        .iter()
-        .map(|complex_eigenvalue| complex_eigenvalue / system.time_scale)
-        .collect();
+    let found = eigenvalues(&reduced(system)?)?;
+    let poles: Vec<Complex<f64>> = found.iter().map(|own| own / system.time_scale).collect();
     poles.iter().all(|pole| pole.re.is_finite() && pole.im.is_finite()).then_some(poles)
 }
 

@@ -10,6 +10,7 @@
 //!
 //! `clemson135` in `docs/references.bib`.
 
+use dashpot_numerics::decompositions::singular;
 use nalgebra::{DMatrix, DVector};
 
 use super::{Curve, CushionPoint, Known};
@@ -130,8 +131,7 @@ fn polynomial(x: &[f64], y: &[f64], degree: usize, scale: f64) -> Option<(Vec<f6
         (x[row] / scale).powi(i32::try_from(power).unwrap_or(0))
     });
     let values = DVector::from_column_slice(y);
-    let svd = powers.clone().svd(true, true);
-    let found = svd.solve(&values, f64::EPSILON).ok()?;
+    let found = singular(&powers)?.solve(&values, f64::EPSILON).ok()?;
     let left = values - powers * &found;
     let rms = (left.norm_squared() / rows as f64).sqrt();
     rms.is_finite().then(|| (found.as_slice().to_vec(), rms))

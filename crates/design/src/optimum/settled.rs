@@ -3,6 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use dashpot_analysis::Judgement;
+use dashpot_numerics::decompositions::singular;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
@@ -136,8 +137,9 @@ impl Search<'_> {
             slopes[free[row]].values[active[column]] * unit(row)
         });
         let right = DVector::from_fn(free.len(), |row, _| slopes[free[row]].aim * unit(row));
-        let is_finite = matrix.iter().chain(right.iter()).all(|own| own.is_finite());
-        let solved = is_finite.then(|| matrix.svd(true, true).solve(&right, 1e-9).ok()).flatten();
+        let is_finite = right.iter().all(|own| own.is_finite());
+        let solved = singular(&matrix).filter(|_| is_finite);
+        let solved = solved.and_then(|own| own.solve(&right, 1e-9).ok());
         solved.map_or_else(|| vec![f64::NAN; active.len()], |own| own.iter().copied().collect())
     }
 }

@@ -1,5 +1,6 @@
 //! What the uncertainty of the numbers makes of anything that follows from them: measures, curves.
 
+use dashpot_numerics::decompositions::symmetric;
 use nalgebra::DVector;
 
 use super::NetworkFit;
@@ -29,14 +30,15 @@ pub struct Band {
 
 impl NetworkFit {
     /// The independent causes of what is not known of the numbers: what one standard deviation of each adds to their
-    /// logarithms. The covariance is the sum of their squares, `Σ s sᵀ`, along what is determined.
-    pub fn causes(&self) -> Vec<Vec<f64>> {
-        let own = self.determined.clone().symmetric_eigen();
+    /// logarithms. The covariance is the sum of their squares, `Σ s sᵀ`, along what is determined. `None` where its
+    /// axes are not found.
+    pub fn causes(&self) -> Option<Vec<Vec<f64>>> {
+        let own = symmetric(&self.determined)?;
         let each = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
         let known = each.filter(|own| *own.0 > 0.0);
-        known
-            .map(|(variance, axis)| axis.iter().map(|own| own * variance.sqrt()).collect())
-            .collect()
+        let causes =
+            known.map(|(variance, axis)| axis.iter().map(|own| own * variance.sqrt()).collect());
+        Some(causes.collect())
     }
 
     /// The bands of what is read where the numbers have some values, by differences along the axes of their covariance,
@@ -48,10 +50,12 @@ impl NetworkFit {
             let moved = values.iter().zip(direction.iter()).map(|(own, by)| own * by.exp());
             read(&moved.collect::<Vec<_>>()).unwrap_or_else(|| vec![None; base.len()])
         };
+        let own = symmetric(&self.determined);
         // For each value the variance, the bend, and whether they are known.
-        let mut sums = vec![(0.0, 0.0, true); base.len()];
-        let own = self.determined.clone().symmetric_eigen();
-        for (variance, axis) in own.eigenvalues.iter().zip(own.eigenvectors.column_iter()) {
+        let mut sums = vec![(0.0, 0.0, own.is_some()); base.len()];
+        let own =
+            own.iter().flat_map(|own| own.eigenvalues.iter().zip(own.eigenvectors.column_iter()));
+        for (variance, axis) in own {
             let deviation = variance.max(0.0).sqrt();
             if deviation <= 0.0 {
                 continue;

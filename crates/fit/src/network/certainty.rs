@@ -1,6 +1,7 @@
 //! How well tests determine numbers: the covariance at the minimum, with rows that follow each other counted for what
 //! they tell.
 
+use dashpot_numerics::decompositions::symmetric;
 use nalgebra::{DMatrix, DVector};
 
 use super::{Profile, profile::Valley, residuals::Task};
@@ -134,15 +135,14 @@ fn spread(task: &Task<'_>, left: &[f64], scale: Option<f64>, correlation: f64) -
 /// numbers.
 fn directions(mut jacobian: DMatrix<f64>, count: usize) -> (DMatrix<f64>, DMatrix<f64>) {
     let all = jacobian.ncols();
-    if !jacobian.iter().all(|own| own.is_finite()) {
-        return (DMatrix::zeros(all, all), DMatrix::identity(count, count));
-    }
     let unit = |own: f64| if own > 0.0 { own } else { 1.0 };
     let lengths: Vec<f64> = jacobian.column_iter().map(|own| unit(own.norm())).collect();
     for (mut column, length) in jacobian.column_iter_mut().zip(&lengths) {
         column /= *length;
     }
-    let own = jacobian.tr_mul(&jacobian).symmetric_eigen();
+    let Some(own) = symmetric(&jacobian.tr_mul(&jacobian)) else {
+        return (DMatrix::zeros(all, all), DMatrix::identity(count, count));
+    };
     let largest = own.eigenvalues.max();
     let mut covariance = DMatrix::zeros(all, all);
     let mut open = Vec::new();

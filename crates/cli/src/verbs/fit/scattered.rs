@@ -24,7 +24,8 @@ impl FittedScene {
         if self.fit.undetermined.ncols() > 0 || !self.shown.is_empty() {
             return Err("the tests do not determine all numbers: leave one of them at its value");
         }
-        let causes = self.fit.causes();
+        let causes =
+            self.fit.causes().ok_or("the axes of the numbers' covariance were not found")?;
         let largest = causes.iter().flatten().map(|own| own.abs()).fold(0.0, f64::max);
         let told = causes.iter().filter(|own| own.iter().any(|own| own.abs() > ROUNDING * largest));
         let line = |shares: &Vec<f64>| {

@@ -1,5 +1,6 @@
 //! A system whose balances are solved wherever its slopes are asked for.
 
+use dashpot_numerics::decompositions::eigenvalues;
 use nalgebra::DMatrix;
 use nalgebra_sparse::CsrMatrix;
 
@@ -114,7 +115,7 @@ impl<'s> Reduced<'s> {
     }
 
     /// The rates of the linearised equations at the time `t` in the span, where the
-    /// unknowns are `state`; `None` where the laws have no finite slopes there.
+    /// unknowns are `state`; `None` where the laws have no finite slopes there, or the eigenvalues are not found.
     pub(super) fn rates(&mut self, t: f64, state: &[f64]) -> Option<Vec<Rate>> {
         let mut y = state.to_vec();
         self.balance(t, &mut y).ok()?;
@@ -130,13 +131,8 @@ impl<'s> Reduced<'s> {
             let follow = block(balanced, balanced).lu().solve(&block(balanced, moving))?;
             rates -= block(moving, balanced) * follow;
         }
-        if moving.is_empty() {
-            return Some(Vec::new());
-        }
-        let all = rates.iter().all(|rate| rate.is_finite()).then(|| rates.complex_eigenvalues())?;
-        Some(
-            all.iter().map(|rate| Rate { decay: -rate.re, size: rate.re.hypot(rate.im) }).collect(),
-        )
+        let all = eigenvalues(&rates)?;
+        Some(all.iter().map(|rate| Rate { decay: -rate.re, size: rate.norm() }).collect())
     }
 
     /// `J` with the slopes of the laws at `y`.
