@@ -30,7 +30,8 @@ pub(crate) struct Found {
     pub(crate) outcome: Outcome,
 }
 
-/// Solves by `method` and, where that fails and `others` are given, by them, the last one first.
+/// Solves by `method` and, where that fails and `others` are given, by them, the last one first. Where nothing is known
+/// of the errors of the one that does not, those that only lacked work are among the `others` again.
 ///
 /// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something
 /// to the next; none more than `most`, and those after the first no more than a while, because what ends one
@@ -47,23 +48,35 @@ pub(crate) fn first_that_solves(
     observer: &mut dyn Observer,
 ) -> Result<Found, RunError> {
     let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
+    let mut short: Vec<Arc<dyn Method>> = Vec::new();
     loop {
         let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
         let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { u64::MAX };
         let share = run.budget.part(share.min(granted).min(most));
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
-            Ok(outcome) => match outcome.solved.fault(task.assembly) {
-                Some(error) => error,
-                None => return Ok(Found { method, why, outcome }),
-            },
+            Ok(outcome) => {
+                let Some(error) = outcome.solved.fault(task.assembly) else {
+                    if !own.knows(&outcome) {
+                        others.extend(short.into_iter().rev());
+                    }
+                    return Ok(Found { method, why, outcome });
+                };
+                let lacks_work = matches!(outcome.obstacle, Some(SolveError::BudgetSpent { .. }));
+                short.extend(lacks_work.then(|| Arc::clone(&method)));
+                error
+            }
             // No other method gets farther.
             Err(
                 error @ (SolveError::Cancelled { .. }
                 | SolveError::InvalidSetting { .. }
                 | SolveError::TooManySwitches { .. }),
             ) => return Err(error.into()),
-            Err(error) => RunError::Solve(error),
+            Err(error) => {
+                let lacks_work = matches!(error, SolveError::BudgetSpent { .. });
+                short.extend(lacks_work.then(|| Arc::clone(&method)));
+                RunError::Solve(error)
+            }
         };
         let is_agreed = match (&first, &error) {
             (Some(RunError::Solve(before)), RunError::Solve(now)) => is_same_end(before, now),
@@ -105,8 +118,9 @@ pub(crate) fn of_a_part(
 /// A better solution by one of the `others`, where that which was `found` is not as good as is wanted and
 /// its own method cannot make it so.
 ///
-/// They may take a few times the work that it was. Theirs is better where nothing was known of its errors,
-/// or where none of their bars is wider beyond what is wanted, and one is narrower.
+/// They may take a few times the work that it was, or where nothing is known of its errors some seconds. Theirs is
+/// better where nothing was known of its errors, or where none of their bars is wider beyond what is wanted, and one
+/// is narrower.
 pub(crate) fn improved(
     task: &Task<'_>,
     run: &Run,
@@ -126,10 +140,11 @@ pub(crate) fn improved(
         if !is_stuck || before.suffices(&found.outcome) {
             break;
         }
-        let budget = run.budget.part(ALWAYS.max(FURTHER * run.budget.done()));
+        let is_known = before.knows(&found.outcome);
+        let least = if is_known { ALWAYS } else { AFTER_ANOTHER };
+        let budget = run.budget.part(least.max(FURTHER * run.budget.done()));
         let own = Task { method: other.as_ref(), ..*task };
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
-        let is_known = before.knows(&found.outcome);
         let is_better =
             own.knows(&outcome) && (!is_known || own.is_better(&outcome, &found.outcome));
         if is_better && outcome.solved.fault(task.assembly).is_none() {

@@ -65,6 +65,11 @@ pub fn solve_assembly(
             Some((found, part)) => (found, part),
             None => return Err(error),
         },
+        // Figures of a part, with their errors, are better than figures of all of it of which nothing is known.
+        (Ok(found), Some(reach)) if !task.knows(&found.outcome) => {
+            let part = attempts::of_a_part(&task, &run, reach, observer);
+            part.unwrap_or((found, run))
+        }
         (found, _) => (found?, run),
     };
     let work = run.budget.done();
