@@ -13,6 +13,7 @@
 mod attempt;
 mod case;
 mod criteria;
+mod degenerate;
 mod events;
 mod extremes;
 mod input;
@@ -32,8 +33,9 @@ use case::Case;
 
 /// Names and texts of all hard cases that are scenes.
 pub(crate) fn texts() -> Vec<(String, String)> {
-    let groups: [fn() -> Vec<Case>; 8] = [
+    let groups: [fn() -> Vec<Case>; 9] = [
         criteria::cases,
+        degenerate::cases,
         events::cases,
         extremes::cases,
         limits::cases,
