@@ -44,7 +44,7 @@ class _Spectrum:
                 rows = csv.writer(file)
                 rows.writerow([header, *(f"{word} [Pa]" for word in words)])
                 rows.writerows([repr(float(value)) for value in row] for row in zip(*columns, strict=True))
-            self.result_: Result = fit(to=f"{path}:{','.join(words)}=m", error=repr(float(self.error)), shift=False)
+            self.result_: Result = fit(to=f"{path}:{','.join(words)}=m", error=repr(float(self.error)))
         branches = self.result_["branches"]
         self.times_ = np.array([own["time"] for own in branches])
         self.strengths_ = np.array([own["strength"] for own in branches])

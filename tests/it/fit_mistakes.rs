@@ -106,6 +106,30 @@ fn a_column_of_the_other_sign_is_told_first() {
 }
 
 #[test]
+fn a_zero_that_rows_before_the_impact_contradict_is_told() {
+    // The record is that of 2 m/s, and the scene says 1 m/s: the zero makes up for the impulse.
+    let folder = Folder::new();
+    let scene = SCENE.replace("2 m/s", "1 m/s");
+    fs::write(folder.0.path().join("pad.toml"), scene).unwrap();
+    let omega = 400e3_f64.sqrt() / 2.0;
+    let mut rows = "t [s],acc [m/s^2]\n".to_owned();
+    for at in 0..240 {
+        let time = f64::from(at - 40) / 20e3;
+        let inside = (0.0..=std::f64::consts::PI).contains(&(omega * time));
+        let value = if inside { 2.0 * omega * (omega * time).sin() } else { 0.0 };
+        rows += &format!("{time:.6},{value:.4}\n");
+    }
+    fs::write(folder.0.path().join("other.csv"), rows).unwrap();
+    let range = ["--vary", "K=5..5000 kN/m"];
+    let (status, text) = folder.fit("other.csv:acc=head.acceleration", &range);
+    assert_eq!(status, 0, "{text}");
+    let told = "rows before the impact read 0 m/s² where nothing happens, and the fitted zero is ";
+    assert!(text.contains(told), "{text}");
+    let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &range);
+    assert!(!text.contains("the fitted zero is"), "{text}");
+}
+
+#[test]
 fn like_parts_that_change_places_are_no_other_minimum() {
     let folder = Folder::new();
     let other = format!("{}:force=pad", folder.at("slow.csv"));

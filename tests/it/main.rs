@@ -41,6 +41,7 @@ mod fit;
 mod fit_folders;
 mod fit_mistakes;
 mod fit_mixed;
+mod fit_spectra;
 mod floors;
 mod formulas;
 mod gallery;

@@ -13,6 +13,9 @@ const FINE: f64 = 1e-6;
 /// So many mergers are tried before there is none.
 const TRIALS: usize = 3;
 
+/// In place of the number of a branch: one becomes a spring.
+const SPRING: usize = usize::MAX;
+
 /// What the error of a few branches is an error of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Against {
@@ -67,7 +70,7 @@ fn fewer(
     is_good: impl Fn(&DVector<f64>) -> bool,
 ) -> Option<(Spectrum, DVector<f64>)> {
     let mut trials = Vec::new();
-    for mut merged in mergers(spectrum, problem.form).into_iter().take(TRIALS) {
+    for mut merged in mergers(spectrum, problem).into_iter().take(TRIALS) {
         let left = merged.refine(problem, FEW_STEPS, COARSE);
         if is_good(&left) {
             return Some((merged, left));
@@ -79,9 +82,10 @@ fn fewer(
     is_good(&left).then_some((nearest, left))
 }
 
-/// Spectra with one branch less, by how little that changes.
-fn mergers(spectrum: &Spectrum, form: Form) -> Vec<Spectrum> {
-    let all = &spectrum.branches;
+/// Spectra with one branch less, by how little that changes: neighbours as one, the slowest Maxwell element or the
+/// fastest Kelvin–Voigt element as a spring.
+fn mergers(spectrum: &Spectrum, problem: &Problem) -> Vec<Spectrum> {
+    let (all, form) = (&spectrum.branches, problem.form);
     let level = |time: f64| spectrum.at(form, time);
     let mut costs: Vec<(f64, usize)> = (1..all.len())
         .map(|at| {
@@ -91,9 +95,23 @@ fn mergers(spectrum: &Spectrum, form: Form) -> Vec<Spectrum> {
             (both * apart * apart / level((one * other).sqrt()), at)
         })
         .collect();
+    let (end, at) = match form {
+        Form::Maxwell => (problem.range.1, all.len().saturating_sub(1)),
+        Form::Kelvin => (problem.range.0, 0),
+    };
+    costs.extend(all.get(at).map(|&(time, strength)| {
+        let late =
+            if form == Form::Maxwell { -(-end / time).exp_m1() } else { (-end / time).exp() };
+        (strength * late * late / level(end), SPRING)
+    }));
     costs.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let merged = |(_, at): (f64, usize)| {
+    let merged = |(_, to): (f64, usize)| {
         let mut own = spectrum.clone();
+        if to == SPRING {
+            own.spring += own.branches.remove(at).1;
+            return own;
+        }
+        let at = to;
         let (time, strength) = own.branches.remove(at);
         let before = &mut own.branches[at - 1];
         let sum = before.1 + strength;

@@ -23,7 +23,7 @@ pub struct Contradiction {
     pub storage_from_loss: f64,
 }
 
-/// The contradiction in a record of both, where there is one; `together` is the floor of both.
+/// The contradiction in a record of both, where there is one; `together` is the lower bound of both.
 pub(super) fn contradiction(record: &Record, together: f64) -> Option<Contradiction> {
     let Record::Oscillation(rows) = record else { return None };
     let storage = Record::Storage(rows.iter().map(|own| (own[0], own[1])).collect());

@@ -28,7 +28,7 @@ pub struct FittedRow {
     pub measured: f64,
     /// What the fewest branches say.
     pub model: f64,
-    /// What the nearest of all passive networks says.
+    /// What the nearest network says, of those whose times the records determine.
     pub floor: f64,
     /// Half of the width of the 95 % band of the model; `None` where none is known.
     pub half: Option<f64>,

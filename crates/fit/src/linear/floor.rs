@@ -1,11 +1,11 @@
-//! The passive network that is nearest to records: no other comes nearer.
+//! The passive network that is nearest to records, on a grid of times.
 //!
 //! Every network of springs and dashpots is, from outside, a sum of terms with strengths that are not negative. On a
-//! dense grid of times the nearest sum is the solution of a convex problem, so what it leaves is a floor under all.
+//! dense grid of times the nearest sum is the solution of a convex problem.
 
 use nalgebra::DVector;
 
-use super::{kernel::Term, problem::Problem, spectrum::Spectrum};
+use super::{kernel::Term, problem::Problem, record::Form, spectrum::Spectrum};
 use crate::nnls::{Minimum, NonNegative};
 
 /// Grid times in each decade.
@@ -35,7 +35,15 @@ impl Dense {
 
     /// The same with branches up to this time \[s\].
     pub(super) fn until(problem: &Problem, high: f64) -> Self {
-        let low = problem.range.0 / BEYOND;
+        Self::between(problem, (problem.range.0 / BEYOND, high))
+    }
+
+    /// The same with the branches that a problem may have.
+    pub(super) fn within(problem: &Problem) -> Self {
+        Self::between(problem, problem.limits)
+    }
+
+    fn between(problem: &Problem, (low, high): (f64, f64)) -> Self {
         let decades = (high / low).log10();
         let steps = (PER_DECADE * decades).min(MOST_TIMES).ceil().max(1.0);
         let mut terms = vec![Term::Spring, Term::Dashpot];
@@ -44,7 +52,10 @@ impl Dense {
             terms.push(Term::Branch(low * (high / low).powf(step / steps)));
             step += 1.0;
         }
-        let columns = problem.columns(&terms);
+        let mut columns = problem.columns(&terms);
+        if problem.is_solid && problem.form == Form::Kelvin {
+            columns.column_mut(DASHPOT).fill(0.0);
+        }
         Self { problem: NonNegative::new(columns, problem.target.clone()), terms }
     }
 

@@ -13,6 +13,53 @@ pub(super) enum Term {
     Branch(f64),
 }
 
+impl Term {
+    /// The time of a branch \[s\].
+    pub(super) fn time(self) -> Option<f64> {
+        if let Self::Branch(time) = self { Some(time) } else { None }
+    }
+}
+
+/// What branches are multiplied by, so that they have limits for times that are ever shorter or longer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Scale {
+    /// By one.
+    None,
+    /// Fast Maxwell elements answer as a power of their times `τ`: by `1 + (θ/τ)^n`.
+    Fast(f64, i32),
+    /// Slow Kelvin–Voigt elements answer as the inverse of their times: by `1 + τ/θ`.
+    Slow(f64),
+}
+
+impl Scale {
+    /// The factor at the logarithm of a time, and its derivative.
+    pub(super) fn at(self, log: f64) -> (f64, f64) {
+        let (part, power) = match self {
+            Self::None => return (1.0, 0.0),
+            Self::Fast(time, power) => (f64::from(power) * (time.ln() - log), -f64::from(power)),
+            Self::Slow(time) => (log - time.ln(), 1.0),
+        };
+        (1.0 + part.exp(), power * part.exp())
+    }
+
+    /// What it adds to a row whose time is `place` \[s\].
+    fn part(self, place: f64) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::Fast(time, power) => (time / place).powi(power),
+            Self::Slow(time) => place / time,
+        }
+    }
+}
+
+/// Bounds of second derivatives by the logarithm of `τ`: of `e^−x` with `x = t/τ`, of `x e^−x` and `x² e^−x`, of
+/// `1/(1 + x²)`, of `x/(1 + x²)`; and of `∫ x⁻¹ e^−x` against a rate of one.
+const DECAY: f64 = 0.3091;
+const FAST_DECAY: f64 = 1.2;
+const STORED: f64 = 0.385;
+const LOST: f64 = 0.5;
+const RATE: f64 = 0.9403;
+
 /// Rows of one kind, each with its weight.
 #[derive(Debug, Clone)]
 pub(super) struct Channel {
@@ -97,6 +144,52 @@ impl Channel {
         }
     }
 
+    /// The same with times of a relaxation that count from this one on; `None` where it is no relaxation.
+    pub(super) fn since(&self, first: f64) -> Option<Self> {
+        let Kernel::Relaxation(times) = &self.kernel else { return None };
+        let kernel = Kernel::Relaxation(times.iter().map(|own| own - first).collect());
+        Some(Self { kernel, ..self.clone() })
+    }
+
+    /// The power of their times as which fast Maxwell elements answer in it; 0 where they do not fade.
+    pub(super) fn fades(&self) -> Option<i32> {
+        match &self.kernel {
+            Kernel::Relaxation(_) => None,
+            Kernel::Storage(_) => Some(2),
+            Kernel::Strained(own) if own.is_struck() => Some(0),
+            _ => Some(1),
+        }
+    }
+
+    /// The shortest and the longest time at which a branch changes from one limit to another \[s\].
+    pub(super) fn span(&self) -> (f64, f64) {
+        let times: Vec<f64> = match &self.kernel {
+            Kernel::Relaxation(times) | Kernel::Creep(times) => times.clone(),
+            Kernel::Storage(omegas) | Kernel::Loss(omegas) => {
+                omegas.iter().map(|own| own.recip()).collect()
+            }
+            Kernel::Strained(own) | Kernel::Stressed(own) => {
+                let steps = own.corners.windows(2).map(|pair| pair[1].0 - pair[0].0);
+                let all = (0..own.instants.len()).map(|row| own.elapsed(row));
+                steps.chain(own.instants.iter().map(|own| own.1)).chain(all).collect()
+            }
+        };
+        let positive = times.into_iter().filter(|own| *own > 0.0);
+        positive.fold((f64::INFINITY, 0.0), |(low, high), own| (low.min(own), high.max(own)))
+    }
+
+    /// Bounds of the second derivatives of branches of unit strength times `scale`, by the logarithm of their time.
+    pub(super) fn curvature(&self, scale: Scale) -> Vec<f64> {
+        let of = |all: &[f64], own: &dyn Fn(f64) -> f64| all.iter().map(|at| own(*at)).collect();
+        match &self.kernel {
+            Kernel::Relaxation(times) => of(times, &|t| DECAY + FAST_DECAY * scale.part(t)),
+            Kernel::Creep(times) => of(times, &|t| DECAY * (1.0 + scale.part(t))),
+            Kernel::Storage(omegas) => of(omegas, &|own| STORED + LOST * scale.part(own.recip())),
+            Kernel::Loss(omegas) => of(omegas, &|own| LOST + LOST * scale.part(own.recip())),
+            Kernel::Strained(own) | Kernel::Stressed(own) => own.curvature(scale),
+        }
+    }
+
     /// What a term adds to each row, and for a branch how that changes with the logarithm of its time.
     pub(super) fn term(&self, term: Term, value: &mut [f64], slope: &mut [f64]) {
         slope.fill(0.0);
@@ -146,13 +239,7 @@ impl Channel {
                 (*value, *slope) = (loss, loss * (1.0 - 2.0 * storage));
             }),
             Kernel::Strained(history) => history.relaxing(time, value, slope),
-            Kernel::Stressed(history) => {
-                history.relaxing(time, value, slope);
-                let mut driven = vec![0.0; value.len()];
-                history.driven(&mut driven);
-                value.iter_mut().zip(driven).for_each(|(own, driven)| *own = driven - *own);
-                slope.iter_mut().for_each(|own| *own = -*own);
-            }
+            Kernel::Stressed(history) => history.creeping(time, value, slope),
         }
     }
 }
@@ -210,7 +297,7 @@ impl History {
 
     /// `∫ e^(−(t−s)/τ) dx(s)`, and its change with `ln τ`.
     fn relaxing(&self, time: f64, value: &mut [f64], slope: &mut [f64]) {
-        let step = |(own, change): (f64, f64), rate: f64, length: f64| {
+        let step = |(own, change): (f64, f64), (_, rate): (f64, f64), length: f64| {
             let x = length / time;
             let left = (-x).exp();
             let grown = time * -(-x).exp_m1();
@@ -219,16 +306,80 @@ impl History {
                 (change + own * x) * left + rate * (grown - time * x * left),
             )
         };
-        let mut states = Vec::with_capacity(self.corners.len() + 1);
-        states.push((0.0, 0.0));
         // What stands there at the first instant came suddenly.
-        states.extend(self.corners.first().map(|own| (own.1, 0.0)));
+        self.followed(self.corners.first().map_or(0.0, |own| own.1), step, value, slope);
+    }
+
+    /// `∫ (1 − e^(−(t−s)/τ)) dx(s)`, and its change with `ln τ`; not as a difference, which is rounding where `τ` is
+    /// long.
+    fn creeping(&self, time: f64, value: &mut [f64], slope: &mut [f64]) {
+        let step = |(own, change): (f64, f64), (driven, rate): (f64, f64), length: f64| {
+            let x = length / time;
+            let (left, grown) = ((-x).exp(), -(-x).exp_m1());
+            // `x − 1 + e^−x`.
+            let late =
+                if x < 1e-3 { 0.5 * x * x * (1.0 - x / 3.0 * (1.0 - 0.25 * x)) } else { x - grown };
+            (
+                own * left + driven * grown + rate * time * late,
+                (change + (own - driven) * x) * left + rate * time * (late - x * grown),
+            )
+        };
+        self.followed(0.0, step, value, slope);
+    }
+
+    /// A state and its derivative, from `first` at the first corner on, at all instants; `step` takes them over a
+    /// length with a value at its beginning and a rate.
+    fn followed(
+        &self,
+        first: f64,
+        step: impl Fn((f64, f64), (f64, f64), f64) -> (f64, f64),
+        value: &mut [f64],
+        slope: &mut [f64],
+    ) {
+        let mut states = Vec::with_capacity(self.corners.len() + 1);
+        states.extend([(0.0, 0.0), (first, 0.0)]);
+        let done = |passed: usize| (self.at_corner(passed), self.slope(passed));
         for (at, pair) in self.corners.windows(2).enumerate() {
-            states.push(step(states[at + 1], self.slope(at + 1), pair[1].0 - pair[0].0));
+            states.push(step(states[at + 1], done(at + 1), pair[1].0 - pair[0].0));
         }
         for ((own, change), &(passed, since)) in value.iter_mut().zip(slope).zip(&self.instants) {
-            (*own, *change) = step(states[passed], self.slope(passed), since);
+            (*own, *change) = step(states[passed], done(passed), since);
         }
+    }
+
+    /// How long before a row the history began; 0 where it had not.
+    fn elapsed(&self, row: usize) -> f64 {
+        let (passed, since) = self.instants[row];
+        if passed == 0 { 0.0 } else { self.corners[passed - 1].0 - self.corners[0].0 + since }
+    }
+
+    /// Whether a row stands where the history begins with a jump.
+    fn is_struck(&self) -> bool {
+        self.corners.first().is_some_and(|own| own.1 != 0.0) && self.instants.contains(&(1, 0.0))
+    }
+
+    /// Bounds of second derivatives: by how much was done until each row, and how fast.
+    fn curvature(&self, scale: Scale) -> Vec<f64> {
+        let jump = self.corners.first().map_or(0.0, |own| own.1.abs());
+        let fastest = (1..self.corners.len()).map(|own| self.slope(own).abs()).fold(0.0, f64::max);
+        let mut done = vec![0.0, jump];
+        for pair in self.corners.windows(2) {
+            done.push(done[done.len() - 1] + (pair[1].1 - pair[0].1).abs());
+        }
+        let row = |(row, &(passed, since)): (usize, &(usize, f64))| {
+            let done = done[passed] + self.slope(passed).abs() * since;
+            let elapsed = self.elapsed(row).max(f64::MIN_POSITIVE);
+            let scaled = match scale {
+                Scale::None => 0.0,
+                Scale::Slow(_) => DECAY * done * scale.part(elapsed),
+                Scale::Fast(time, _) if passed > 0 && jump > 0.0 => {
+                    RATE * time * fastest + FAST_DECAY * jump * scale.part(elapsed)
+                }
+                Scale::Fast(time, _) => RATE * time * fastest,
+            };
+            DECAY * done + scaled
+        };
+        self.instants.iter().enumerate().map(row).collect()
     }
 }
 

@@ -1,4 +1,4 @@
-//! The passive network that is nearest to records.
+//! The passive network that is nearest to records, of those whose times the records determine.
 
 use nalgebra::DVector;
 
@@ -21,7 +21,7 @@ pub(super) struct Nearest {
 impl Nearest {
     /// That of a problem; `None` where it has no terms.
     pub(super) fn of(problem: &Problem) -> Option<Self> {
-        let dense = Dense::of(problem);
+        let dense = Dense::within(problem);
         let minimum = dense.minimum();
         let mut start = dense.spectrum(&minimum);
         start.terms().next()?;

@@ -108,10 +108,31 @@ impl Record {
         matches!(self, Self::Strained(_) | Self::Stressed(_))
     }
 
+    /// Whether its rows are over time, not over frequency.
+    pub fn has_times(&self) -> bool {
+        !matches!(self, Self::Oscillation(_) | Self::Storage(_) | Self::Loss(_))
+    }
+
     /// The largest answer of a record with a history, which its deviations are parts of.
     pub fn largest(&self) -> Option<f64> {
         let (Self::Strained(rows) | Self::Stressed(rows)) = self else { return None };
         rows.iter().map(|own| own[2].abs()).reduce(f64::max)
+    }
+
+    /// The record without some of its rows; one with a history as it is.
+    #[must_use]
+    pub(super) fn without(&self, left_out: &[usize]) -> Self {
+        let mut own = self.clone();
+        let mut at = 0..;
+        let mut is_kept = || at.next().is_none_or(|at| !left_out.contains(&at));
+        match &mut own {
+            Self::Relaxation(rows) | Self::Creep(rows) | Self::Storage(rows) | Self::Loss(rows) => {
+                rows.retain(|_| is_kept());
+            }
+            Self::Oscillation(rows) => rows.retain(|_| is_kept()),
+            Self::Strained(_) | Self::Stressed(_) => {}
+        }
+        own
     }
 
     /// Looks at all rows.

@@ -54,14 +54,6 @@ pub(super) fn is_nearer(shifted: Misfit, unshifted: Misfit) -> bool {
     unshifted.rms > ROUNDING && shifted.rms < (1.0 - LOWERS) * unshifted.rms
 }
 
-/// A branch has relaxed to 1 % after so many of its times.
-const MOST_SEEN: f64 = 5.0;
-
-/// The slowest branch of which most is seen \[s\].
-pub(super) fn slowest(problem: &Problem) -> f64 {
-    problem.range.1 / MOST_SEEN
-}
-
 /// The ranges of both ends of the spectrum, with all shifts that keep within the noise.
 ///
 /// No branch is so slow that little of it is seen: it could not be told from the spring. How fast one is is free.
@@ -71,7 +63,7 @@ pub(super) fn ranges(
     problem: &Problem,
     ends: [End; 2],
 ) -> [Range; 2] {
-    let slowest = slowest(problem);
+    let slowest = problem.slowest();
     let dense = Dense::until(problem, slowest);
     let tolerated = tolerated(problem, &dense.minimum().residual);
     let mut others: Vec<Dense> = Vec::new();

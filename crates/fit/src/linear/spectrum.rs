@@ -98,8 +98,8 @@ impl Spectrum {
         (residual, jacobian)
     }
 
-    /// With logarithms moved by a step.
-    fn moved(&self, step: &DVector<f64>) -> Self {
+    /// With logarithms moved by a step, times within the limits.
+    fn moved(&self, step: &DVector<f64>, (low, high): (f64, f64)) -> Self {
         let mut own = self.clone();
         let mut factors = step.iter().map(|own| own.exp());
         let mut scale = |value: &mut f64| {
@@ -111,7 +111,18 @@ impl Spectrum {
         scale(&mut own.dashpot);
         own.branches.iter_mut().for_each(|own| scale(&mut own.1));
         own.branches.iter_mut().for_each(|own| scale(&mut own.0));
+        own.branches.iter_mut().for_each(|own| own.0 = own.0.clamp(low, high));
         own
+    }
+
+    /// The positions of times that stand at a limit and would leave it.
+    fn held(&self, (low, high): (f64, f64), descent: &DVector<f64>) -> Vec<usize> {
+        let first = descent.len() - self.branches.len();
+        let leaves = |at: usize| {
+            let (time, way) = (self.branches[at].0, descent[first + at]);
+            time <= low && way < 0.0 || time >= high && way > 0.0
+        };
+        (0..self.branches.len()).filter(|at| leaves(*at)).map(|at| first + at).collect()
     }
 
     /// Refines it by at most so many steps of Levenberg and Marquardt on logarithms, until a step lowers the sum of
@@ -125,7 +136,12 @@ impl Spectrum {
         let mut square = residual.norm_squared();
         for _ in 0..steps {
             let mut normal = jacobian.tr_mul(&jacobian);
-            let descent = -jacobian.tr_mul(&residual);
+            let mut descent = -jacobian.tr_mul(&residual);
+            for at in self.held(problem.limits, &descent) {
+                normal.row_mut(at).fill(0.0);
+                normal.column_mut(at).fill(0.0);
+                (normal[(at, at)], descent[at]) = (1.0, 0.0);
+            }
             for at in 0..normal.nrows() {
                 normal[(at, at)] += damping * normal[(at, at)].max(f64::MIN_POSITIVE);
             }
@@ -137,7 +153,7 @@ impl Spectrum {
             if longest > LONGEST {
                 step *= LONGEST / longest;
             }
-            let next = self.moved(&step);
+            let next = self.moved(&step, problem.limits);
             let left = next.residual(problem).norm_squared();
             if left.is_nan() || left >= square {
                 damping *= UP;

@@ -56,6 +56,8 @@ pub struct TestFit {
     pub noise: f64,
     /// The same before the impact alone; `None` where fewer than eight rows tell it.
     pub noise_at_rest: Option<f64>,
+    /// What the rows before the impact read, where the fitted zero is none of them.
+    pub other_zero: Option<OtherZero>,
     /// What it differs by from other records of the same test, where that was repeated.
     pub scatter: Option<Scatter>,
     /// The largest magnitude that was measured, with its sign, less the offset.
@@ -70,6 +72,15 @@ pub struct TestFit {
     /// How far the model is from it where the numbers are fitted to the other tests alone; `None` where there is no
     /// other.
     pub held_out: Option<HeldOut>,
+}
+
+/// Rows before the impact that contradict the zero that was fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherZero {
+    /// How many there are.
+    pub rows: usize,
+    /// What they read at zero, the median, in SI units.
+    pub median: f64,
 }
 
 /// How far a model is from a test to which nothing but its clock and its zero was fitted.

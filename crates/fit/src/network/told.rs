@@ -1,11 +1,38 @@
 //! What there is to say about each test at a minimum.
 
-use super::{Curve, Kind, TestFit, residuals::Task};
+use super::{
+    Curve, Kind, OtherZero, Test, TestFit,
+    residuals::{Own, Task},
+};
 
 /// Fewer rows before the impact tell no noise.
 const FEWEST: usize = 8;
 /// What the filter smears of an impact to before it lies within so many periods of its design frequency.
 const SMEARED: f64 = 2.0;
+
+/// Rows before the impact contradict a zero that is off by more than this part of the peak, and by so many standard
+/// errors of their mean: filtered rows follow each other, so that fewer than all tell it.
+const ZERO_OFF: f64 = 0.01;
+const ERRORS: f64 = 15.0;
+
+/// A row belongs to the impact that differs from the first one by more than this part of the peak.
+const QUIET: f64 = 0.1;
+
+/// What the rows before a time, and before the record leaves its first value, read at zero where a fitted zero
+/// contradicts them; `left` is the model less the rows.
+fn other_zero(test: &Test, left: &[f64], own: Own, until: f64) -> Option<OtherZero> {
+    let first = test.rows.first()?.1;
+    let peak = largest(test.rows.iter().map(|row| row.1 - first)).abs();
+    let is_quiet = |row: &(f64, f64)| row.0 < until && (row.1 - first).abs() <= QUIET * peak;
+    let rows = test.rows.iter().zip(left).take_while(|row| is_quiet(row.0));
+    let mut left: Vec<f64> = rows.map(|row| *row.1).collect();
+    left.sort_by(f64::total_cmp);
+    let (rows, median) = (left.len(), *left.get(left.len() / 2)?);
+    let square = left.iter().map(|own| (own - median) * (own - median)).sum::<f64>() / rows as f64;
+    let least = f64::max(ZERO_OFF * peak, ERRORS * (square / rows as f64).sqrt());
+    let is_apart = test.is_offset && rows >= FEWEST && median.abs() > least;
+    is_apart.then_some(OtherZero { rows, median: own.offset - median })
+}
 
 /// The value of the largest magnitude, with its sign.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
@@ -70,6 +97,7 @@ impl Task<'_> {
                 mean_square: unit * unit * mean_square(left),
                 noise: unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt(),
                 noise_at_rest: at_rest,
+                other_zero: other_zero(test, &residual, own, rests),
                 scatter: self.scatter(at, unknowns),
                 measured_peak: largest(test.rows.iter().map(|row| row.1 - own.offset)),
                 model_peak: own.gain * self.peak_of(at, curve.as_ref(), own.shift),

@@ -1,6 +1,6 @@
 //! Fields of a line, and the numbers that they are.
 
-use std::ops::Range;
+use std::{borrow::Cow, ops::Range};
 
 use super::{fault::TableFault, guard::unguarded};
 use crate::units::{UnitError, parse_dimension, parse_quantity};
@@ -175,7 +175,12 @@ pub(super) fn decimal_of(field: &Field<'_>) -> Option<Result<Decimal, ()>> {
 
 /// Whether a text is a unit that can be read, or the sign for none.
 pub(super) fn is_unit(text: &str) -> bool {
-    is_no_unit(text) || (!text.is_empty() && parse_dimension(text).is_ok())
+    is_no_unit(text) || (!text.is_empty() && parse_dimension(&spelt(text)).is_ok())
+}
+
+/// A unit with its symbol for the second, which machines write as `sec`.
+pub(super) fn spelt(unit: &str) -> Cow<'_, str> {
+    if unit.contains("sec") { unit.replace("sec", "s").into() } else { unit.into() }
 }
 
 /// Whether a text says that a column has no unit.

@@ -16,7 +16,7 @@ use std::{f64::consts::TAU, ops::Range};
 use dashpot_network::parameters::Dimension;
 
 use self::{
-    cells::{Decimal, split},
+    cells::{Decimal, spelt, split},
     fault::MOST_ROWS,
     layout::{Layout, check_columns, decimal, lines},
 };
@@ -335,7 +335,8 @@ pub(crate) fn quantity_in(text: &str) -> Result<Quantity, UnitError> {
     if is_no_unit(text) {
         return Ok(Quantity::of(1.0, Dimension::NUMBER));
     }
-    parse_quantity(&format!("1 {text}"))
+    let one = |unit: &str| parse_quantity(&format!("1 {unit}"));
+    one(&spelt(text)).or_else(|_| one(text))
 }
 
 /// What numbers in the unit of which this is `one` become in SI units; `None` where it is of another dimension.

@@ -94,7 +94,7 @@ pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError
     }
     let candidate = |own: &Option<NetworkFit>| Some(Candidate::of(own.as_ref()?, &plan.tests));
     let candidates: Vec<Option<Candidate>> = list(fits.iter().map(candidate));
-    let choice = choose(&candidates, plan.arguments.error);
+    let choice = choose(&candidates, plan.arguments.error());
     let (information, samples) = information(&list(fits.iter().map(Option::as_ref)), &plan.tests);
     let open = |own: &Option<NetworkFit>| {
         own.iter().flat_map(|own| &own.numbers).filter(|own| !own.is_identified()).count()

@@ -19,6 +19,8 @@ use crate::{
 pub(super) const FLAG: &str = "--to";
 /// Signs before a standard deviation.
 const SCATTER: [&str; 2] = ["±", "+-"];
+/// Rows that differ by no more are of one temperature \[K\].
+const ONE_TEMPERATURE: f64 = 2.0;
 /// A compliance of a material, 1/Pa.
 const MATERIAL_COMPLIANCE: Dimension = Dimension::new(-1, 1, 2);
 
@@ -85,6 +87,17 @@ pub(super) struct Measured {
 }
 
 impl Asked {
+    /// What is said of it that only fits of numbers take into account.
+    pub(super) fn of_numbers(&self) -> Option<&str> {
+        let given = [
+            ("cfc", self.cfc.is_some()),
+            ("gain", self.gain.is_some()),
+            ("noise", self.noise.is_some()),
+        ];
+        let given = given.into_iter().find(|own| own.1).map(|own| own.0);
+        self.set.first().map(|own| own.0.as_str()).or(given)
+    }
+
     /// What is set with a standard deviation.
     pub(super) fn scattered(&self) -> impl Iterator<Item = &(String, String)> {
         self.set.iter().filter(|own| SCATTER.iter().any(|sign| own.1.contains(sign)))
@@ -139,6 +152,7 @@ impl Asked {
         let found = Columns { file: &file, table: &table, answers: columns };
         let frequency = file.only(&table, Dimension::FREQUENCY)?;
         let time = file.only(&table, Dimension::TIME)?;
+        found.check_temperature(time.filter(|_| frequency.is_none()).zip(until))?;
         let (mut record, is_material, what) = match (frequency, time) {
             (Some(frequency), _) if found.answers.len() == 2 || time.is_none() => {
                 found.oscillation(frequency, &self.columns)?
@@ -161,12 +175,14 @@ impl Asked {
     /// A force over a deformation, or a stress over a strain, at the rate that is stated.
     fn pressed(&self, file: &MeasuredFile, found: &Columns<'_, '_>) -> Result<Measured, CliError> {
         let &[column] = &found.answers[..] else {
+            found.check_units()?;
             return Err(file.unclear("over a deformation one column answers".to_owned()));
         };
         let (way, speed, unit, is_material) = match found.dimension(column)? {
             Dimension::FORCE => (Dimension::LENGTH, Dimension::VELOCITY, "10 mm/min", false),
             Dimension::PRESSURE => (Dimension::NUMBER, Dimension::FREQUENCY, "0.01 1/s", true),
             _ => {
+                found.check_units()?;
                 let wanted = "a column of times, as in `t [s]`, or frequencies, as in `f [Hz]`, is wanted; a force \
                               over a deformation, or a stress over a strain, goes without";
                 return Err(file.unclear(wanted.to_owned()));
@@ -274,9 +290,72 @@ impl Columns<'_, '_> {
         self.table.column(column, dimension).map_err(|own| self.file.fault(own))
     }
 
+    /// Whether all units can be read.
+    fn check_units(&self) -> Result<(), CliError> {
+        let all = (0..self.table.columns()).map(|at| (at, self.table.heading(at)));
+        let mut unread = all.filter(|own| own.1.unit.is_some() && own.1.dimension.is_none());
+        unread.next().map_or(Ok(()), |own| self.numbers(own.0, Dimension::NUMBER).map(|_| ()))
+    }
+
+    /// Whether all rows, up to a time if one is given, are of one temperature, where a column tells it.
+    fn check_temperature(&self, until: Option<(usize, f64)>) -> Result<(), CliError> {
+        let is_one = |at: &usize| {
+            let own = self.table.heading(*at);
+            own.dimension == Some(Dimension::TEMPERATURE)
+                || own.unit.is_none() && own.name.to_lowercase().starts_with("temp")
+        };
+        let Some(column) = (0..self.table.columns()).find(is_one) else { return Ok(()) };
+        let mut all = self.numbers(column, Dimension::TEMPERATURE)?;
+        if let Some((time, until)) = until {
+            let mut times = self.numbers(time, Dimension::TIME)?.into_iter();
+            all.retain(|_| times.next().is_some_and(|own| own <= until));
+        }
+        let (low, high) = all
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |own, at| (own.0.min(*at), own.1.max(*at)));
+        if high - low <= ONE_TEMPERATURE {
+            return Ok(());
+        }
+        let zero = if self.table.heading(column).unit.is_some() { 273.15 } else { 0.0 };
+        Err(self.file.unclear(format!(
+            "its rows are of several temperatures, from {:.1} to {:.1} °C in column `{}`, and a curve is of one: keep the \
+             rows of one, in a file of their own, or shift all to one before",
+            low - zero,
+            high - zero,
+            self.name(column)
+        )))
+    }
+
+    /// Angular frequencies \[rad/s\]: turns a second, or angles, by their unit; where that is 1/s, by their name.
+    fn omegas(&self, column: usize) -> Result<Vec<f64>, CliError> {
+        let heading = self.table.heading(column);
+        let (name, unit) = (heading.name, heading.unit.unwrap_or_default());
+        let word = name.to_lowercase();
+        let is_angular = ["angular", "ang.", "ang ", "omega", "ω", "kreisfrequenz"]
+            .iter()
+            .any(|own| word.starts_with(own) || word.contains("angular"));
+        let has = |own: &str| unit.to_lowercase().contains(own);
+        let (is_turns, is_angle) = (has("hz"), ["rad", "deg", "°"].into_iter().any(has));
+        let factor = match (is_angular, is_turns, is_angle) {
+            (_, false, true) | (false, true, _) => std::f64::consts::TAU,
+            (true, false, false) => 1.0,
+            _ => {
+                return Err(self.file.unclear(format!(
+                    "`{name} [{unit}]` may be turns a second or rad/s, which differ by 2π: write `{name} [Hz]` or \
+                     `{name} [rad/s]` into the file, whichever it is"
+                )));
+            }
+        };
+        let values = self.numbers(column, Dimension::FREQUENCY)?;
+        Ok(list(values.into_iter().map(|own| factor * own)))
+    }
+
     /// Moduli over frequency.
     fn oscillation(&self, frequency: usize, symbols: &[String]) -> Result<Found, CliError> {
         let dimension = self.dimension(self.answers[0])?;
+        for column in &self.answers {
+            self.dimension(*column)?;
+        }
         if ![Dimension::PRESSURE, Dimension::STIFFNESS].contains(&dimension) {
             let name = self.name(self.answers[0]);
             return Err(self.file.unclear(format!(
@@ -284,8 +363,7 @@ impl Columns<'_, '_> {
             )));
         }
         let is_material = dimension == Dimension::PRESSURE;
-        let omegas = self.numbers(frequency, Dimension::FREQUENCY)?;
-        let omegas: Vec<f64> = list(omegas.into_iter().map(|own| own * std::f64::consts::TAU));
+        let omegas = self.omegas(frequency)?;
         let values = self.answers.iter().map(|own| self.numbers(*own, dimension));
         let values = values.collect::<Result<Vec<_>, _>>()?;
         let names: Vec<&str> = list(self.answers.iter().map(|own| self.name(*own)));

@@ -11,7 +11,7 @@ use dashpot_plot::{
     figures::{CREEP, HISTORY, OSCILLATION, RELAXATION},
 };
 
-use super::{Fitted, scene::FittedScene, target::Compared, words::misfit};
+use super::{Fitted, scene::FittedScene, target::Compared, words::rms};
 use crate::{
     error::CliError,
     folder::Staged,
@@ -89,7 +89,7 @@ pub(super) fn of_scene(fitted: &FittedScene) -> Vec<Drawn> {
             Compared::Output(own) => (&HISTORY, "time [s]", quantity(own.of), curve.output.unit()),
             Compared::Alone(own) => own.drawn(),
         };
-        let is_oscillation = matches!(&curve.output, Compared::Alone(own) if own.is_oscillation());
+        let is_oscillation = curve.output.is_oscillation();
         let is_relative = curve.output.kind() == TestKind::Modulus;
         let rows = curve.rows.iter().zip(&test.residual).enumerate();
         let rows = rows.map(|(at, (row, left))| FitRow {
@@ -154,7 +154,7 @@ pub(super) fn of_model(fitted: &Fitted) -> Vec<Drawn> {
         let place = |at: f64| if is_oscillation { at / TAU } else { at };
         let branch =
             |own: &(f64, f64)| (if is_oscillation { (TAU * own.0).recip() } else { own.0 }, own.1);
-        let floor = misfit(own.floor, own, fitted.units().answer);
+        let floor = rms(own.floor, own, fitted.units().answer);
         let series = FitSeries {
             title: format!("{}: {}, {}", fitted.name, told.what.replace('`', ""), told.file),
             note: format!("no network of springs and dashpots comes nearer than {floor}"),

@@ -5,6 +5,7 @@ use dashpot_plot::{Report, ReportFigure, Table};
 use super::{
     FitArguments, Fitted,
     figures::{self, names, of_model, of_scene},
+    is_on,
     scene::FittedScene,
     words,
 };
@@ -30,22 +31,23 @@ pub(super) fn all_names(records: usize) -> impl Iterator<Item = String> {
 impl FitArguments {
     /// What the command line asks for, in words, for a page.
     pub(super) fn in_words(&self) -> Vec<(&'static str, String)> {
-        let on = |own: Switch| if own == Switch::On { "on" } else { "off" };
+        let on = |own: Option<Switch>| if is_on(own) { "on" } else { "off" };
         let mut all: Vec<(&str, String)> = Vec::new();
         all.extend(self.to.iter().map(|own| ("to", own.text.clone())));
         all.extend(self.vary.iter().map(|own| ("vary", own.clone())));
         all.extend(self.values.set.iter().map(|own| ("set", format!("{}={}", own.0, own.1))));
         all.extend(self.cfc.map(|own| ("cfc", own.class().to_string())));
-        all.extend(self.cfc.map(|_| ("padding", self.padding.clone())));
+        all.extend(self.cfc.map(|_| ("padding", self.padding().word().to_owned())));
         all.extend(self.noise.clone().map(|own| ("noise", own)));
         all.extend(self.gain.map(|own| ("gain", share(own))));
         all.push(("shift", on(self.shift).to_owned()));
+        all.push(("robust", on(self.robust).to_owned()));
         if self.vary.is_empty() {
-            all.push(("error", share(self.error)));
+            all.push(("error", share(self.error())));
+            all.extend(self.solid.then(|| ("solid", "yes".to_owned())));
         } else {
             all.push(("offset", on(self.offset).to_owned()));
-            all.push(("robust", on(self.robust).to_owned()));
-            all.push(("starts", format!("{}, seed {}", self.starts, self.seed)));
+            all.push(("starts", format!("{}, seed {}", self.starts(), self.seed())));
         }
         all
     }

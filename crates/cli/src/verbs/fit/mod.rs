@@ -51,6 +51,7 @@ const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
 #[command(after_help = "Examples:\n  \
     dashpot fit --to \"relax.csv:G=felt\" --out felt.toml\n  \
     dashpot fit --to \"dma.csv:E',E''=felt\" --error 2%\n  \
+    dashpot fit --to \"hold.csv:stress=gel\" --solid\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:force=pad.force\"\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"drop.csv:acc=head.acceleration\" --cfc 180\n  \
     dashpot fit pad.toml --vary \"K=10..1000 kN/m\" --to \"press.csv:force=pad,rate=10 mm/min\"\n  \
@@ -67,6 +68,7 @@ const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
     `[fit]` of a scene sets options by their names; those of the command stand above them.\n\n\
     What no network of springs and dashpots can meet is said, and what \
     the records do not determine.")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub(crate) struct FitArguments {
     /// The scene whose numbers are fitted, or whose model is replaced; without it a model is written alone.
     #[arg(value_name = "SCENE")]
@@ -82,27 +84,28 @@ pub(crate) struct FitArguments {
     /// the tests speak for is told and written.
     #[arg(long, value_name = "[MODEL=]FORM,…", requires = "scene")]
     among: Option<String>,
-    /// The largest error that fewer branches, or forms with fewer numbers, may make.
-    #[arg(long, value_name = "PART", default_value = "1%", value_parser = share)]
-    error: f64,
+    /// The largest error that fewer branches, or forms with fewer numbers, may make [default: 1%].
+    #[arg(long, value_name = "PART", value_parser = share)]
+    error: Option<f64>,
     /// Leaves out rows behind this time of the file.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     until: Option<f64>,
-    /// Whether the clock of a record may be off: against the run, or of what answered against what was done.
-    #[arg(long, value_name = "WHEN", default_value = "on")]
-    shift: Switch,
-    /// Whether the zero of a record of a scene may be off.
-    #[arg(long, value_name = "WHEN", default_value = "on")]
-    offset: Switch,
+    /// Whether the clock of a record may be off: against the run, or of what answered against what was done
+    /// [default: on].
+    #[arg(long, value_name = "WHEN")]
+    shift: Option<Switch>,
+    /// Whether the zero of a record of a scene may be off [default: on].
+    #[arg(long, value_name = "WHEN")]
+    offset: Option<Switch>,
     /// Whether the gain of a record of a scene may be off, and by which part: its standard deviation.
     #[arg(long, value_name = "PART", value_parser = share)]
     gain: Option<f64>,
     /// The channel frequency class that the records went through: the output of the scene goes through the same filter.
     #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
     cfc: Option<Cfc>,
-    /// What stood beyond the ends of a record for its filter.
-    #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
-    padding: String,
+    /// What stood beyond the ends of a record for its filter [default: odd].
+    #[arg(long, value_name = "MODE", value_parser = paddings())]
+    padding: Option<String>,
     /// Standard deviation of a sample before the filter, "0.5 g"; found from what is left of the records by default.
     #[arg(long, value_name = "VALUE")]
     noise: Option<String>,
@@ -113,15 +116,20 @@ pub(crate) struct FitArguments {
     /// runs and designs then draw from it.
     #[arg(long)]
     scatter: bool,
-    /// Whether rows that are far off count by their magnitude, in place of its square.
-    #[arg(long, value_name = "WHEN", default_value = "on")]
-    robust: Switch,
-    /// From how many starts numbers of a scene are searched: its own, and others over the bounds.
-    #[arg(long, value_name = "NUMBER", value_parser = STARTS.read(), default_value_t = 5)]
-    starts: usize,
-    /// The seed of these starts.
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
-    seed: u64,
+    /// Whether rows that are far off count by their magnitude, in place of its square; for a model whether rows that stand
+    /// apart from all others are left out and reported [default: on].
+    #[arg(long, value_name = "WHEN")]
+    robust: Option<Switch>,
+    /// The material is known to come to rest under a constant load: what relaxes slower than the records determine is a
+    /// spring, and nothing flows.
+    #[arg(long)]
+    solid: bool,
+    /// From how many starts numbers of a scene are searched: its own, and others over the bounds [default: 5].
+    #[arg(long, value_name = "NUMBER", value_parser = STARTS.read())]
+    starts: Option<usize>,
+    /// The seed of these starts [default: 1].
+    #[arg(long, value_name = "NUMBER")]
+    seed: Option<u64>,
     #[command(flatten)]
     values: ValueArguments,
     #[command(flatten)]
@@ -132,7 +140,7 @@ pub(crate) struct FitArguments {
 }
 
 impl FitArguments {
-    /// Whether there is something to fit to, and nothing is asked for that has no meaning.
+    /// Whether there is something to fit to, and every option that is given is one of this kind of fit.
     fn check(&self) -> Result<(), CliError> {
         let wrong = |name: &str, reason: &str| {
             let (name, reason) = (name.to_owned(), reason.to_owned());
@@ -141,20 +149,58 @@ impl FitArguments {
         if self.to.is_empty() {
             return wrong("--to", "say to what is fitted, as in \"drop.csv:force=pad.force\"");
         }
-        let of_numbers = [
-            ("--gain", self.gain.is_some()),
-            ("--cfc", self.cfc.is_some()),
-            ("--noise", self.noise.is_some()),
-            ("--profile", self.profile),
-            ("--scatter", self.scatter),
+        let of_numbers = (
+            self.fits_numbers(),
+            "it is for numbers of a scene: say which, as in `--vary \"K=10..1000 kN/m\"`",
+        );
+        let of_spectra =
+            (!self.fits_numbers(), "it is for the spectrum of a model alone, without `--vary`");
+        let of_among = (
+            !self.fits_numbers() || self.among.is_some(),
+            "with `--vary` all numbers are fitted; it tells how near fewer branches of a model, or forms of `--among`, \
+             have to be",
+        );
+        let of_scenes = (self.scene.is_some(), "there is no scene in which it could be set");
+        let of_filters = (
+            self.cfc.is_some() || self.to.iter().any(|own| own.cfc.is_some()),
+            "it is for the filter of a record: say which, as in `--cfc 180`",
+        );
+        let all = [
+            ("--error", self.error.is_some(), of_among),
+            ("--set", !self.values.set.is_empty(), of_scenes),
+            ("--gain", self.gain.is_some(), of_numbers),
+            ("--cfc", self.cfc.is_some(), of_numbers),
+            ("--noise", self.noise.is_some(), of_numbers),
+            ("--offset", self.offset.is_some(), of_numbers),
+            ("--profile", self.profile, of_numbers),
+            ("--scatter", self.scatter, of_numbers),
+            ("--starts", self.starts.is_some(), of_numbers),
+            ("--seed", self.seed.is_some(), of_numbers),
+            ("--padding", self.padding.is_some(), of_numbers),
+            ("--padding", self.padding.is_some(), of_filters),
+            ("--solid", self.solid, of_spectra),
         ];
-        match of_numbers.iter().find(|own| own.1 && !self.fits_numbers()) {
-            Some((name, _)) => wrong(
-                name,
-                "it is for numbers of a scene: say which, as in `--vary \"K=10..1000 kN/m\"`",
-            ),
-            None => Ok(()),
+        if let Some((name, _, (_, reason))) = all.iter().find(|own| own.1 && !own.2.0) {
+            return wrong(name, reason);
         }
+        let behind = self.to.iter().filter(|_| !self.fits_numbers());
+        let mut behind = behind.filter_map(|own| Some((own, own.of_numbers()?)));
+        behind.next().map_or(Ok(()), |(own, word)| {
+            let reason = format!("`{word}` behind its comma: {}", of_numbers.1);
+            Err(CliError::Fit { text: own.text.clone(), reason })
+        })
+    }
+
+    fn error(&self) -> f64 {
+        self.error.unwrap_or(0.01)
+    }
+
+    fn starts(&self) -> usize {
+        self.starts.unwrap_or(5)
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(1)
     }
 
     /// Whether numbers of a scene are fitted, else a model.
@@ -163,20 +209,39 @@ impl FitArguments {
     }
 
     fn padding(&self) -> Padding {
-        Padding::ALL.into_iter().find(|own| own.word() == self.padding).unwrap_or_default()
+        let given = self.padding.as_deref();
+        Padding::ALL.into_iter().find(|own| Some(own.word()) == given).unwrap_or_default()
     }
+}
+
+/// Whether what is said of tests, if it is given, is said of one at least: name, whether it is given, whether it is.
+fn check_tests<const N: usize>(options: [(&'static str, bool, bool); N]) -> Result<(), CliError> {
+    let none = options.into_iter().find(|own| own.1 && !own.2);
+    none.map_or(Ok(()), |own| {
+        let reason = "it changes nothing: there is no test of which it could be said".to_owned();
+        Err(CliError::WrongSetting { name: own.0.to_owned(), reason })
+    })
+}
+
+/// What a switch is unless it is given.
+fn is_on(own: Option<Switch>) -> bool {
+    own != Some(Switch::Off)
 }
 
 /// What is told of a record.
 struct Told {
     file: String,
     what: String,
+    /// The line of each row, from 1.
+    lines: Vec<usize>,
 }
 
 /// A model that was fitted.
 struct Fitted {
     name: String,
     is_material: bool,
+    /// Whether it is known to be a solid.
+    is_solid: bool,
     error: f64,
     records: Vec<Told>,
     fit: LinearFit,
@@ -233,18 +298,35 @@ fn fit_model(
     if measured.iter().any(|own| own.is_material != is_material) {
         return Err(CliError::MaterialAndPad);
     }
+    let is_timed = |own: &&Asked, record: &Record| own.rate.is_none() && record.has_times();
+    let any = |is_one: &dyn Fn(&&Asked, &Record) -> bool| {
+        arguments.to.iter().zip(&measured).any(|own| is_one(&own.0, &own.1.record))
+    };
+    check_tests([
+        ("--until", arguments.until.is_some(), any(&is_timed)),
+        ("--shift", arguments.shift.is_some(), any(&|_, own| own.has_history())),
+    ])?;
     measured.iter().filter_map(|own| own.note.as_deref()).for_each(note);
     let records: Vec<Record> = list(measured.iter().map(|own| own.record.clone()));
-    let settings =
-        LinearSettings { error: arguments.error, is_shifted: arguments.shift == Switch::On };
+    let settings = LinearSettings {
+        error: arguments.error(),
+        is_shifted: is_on(arguments.shift),
+        is_robust: is_on(arguments.robust),
+        is_solid: arguments.solid,
+    };
     let fit =
         fit_spectrum(&records, settings).map_err(|fault| wrong(fault, &arguments.to, &measured))?;
     let told = arguments.to.iter().zip(measured);
-    let told = told.map(|(asked, own)| Told { file: asked.file.clone(), what: own.what });
+    let told = told.map(|(asked, own)| Told {
+        file: asked.file.clone(),
+        what: own.what,
+        lines: own.lines,
+    });
     let mut fitted = Fitted {
         name: name.clone(),
         is_material,
-        error: arguments.error,
+        is_solid: arguments.solid,
+        error: arguments.error(),
         records: told.collect(),
         fit,
         text: String::new(),
@@ -308,10 +390,14 @@ impl Study for Fitted {
                 file: &told.file,
                 rms: own.misfit.rms,
                 largest: own.misfit.largest,
-                floor: own.floor.rms,
+                floor: own.floor,
                 scale: own.largest,
                 shift: own.shift,
                 offset: None::<f64>,
+                outliers: list(own.outliers.iter().map(|own| object! {
+                    line: told.lines.get(own.row),
+                    off: own.off,
+                })),
                 contradiction: own.contradiction.map(|own| object! {
                     storage_alone: own.storage_alone,
                     loss_alone: own.loss_alone,
@@ -328,8 +414,8 @@ impl Study for Fitted {
             parameters: parameters.collect::<Pairs<_, _>>(),
             tests: list(tests),
             converged: self.fit.is_kept,
-            floor: self.fit.floor.rms,
-            floor_unshifted: self.fit.floor_unshifted.map(|own| own.rms),
+            floor: self.fit.floor,
+            floor_unshifted: self.fit.floor_unshifted,
             rms: self.fit.misfit.rms,
             largest: self.fit.misfit.largest,
             spring: self.fit.spectrum.spring,

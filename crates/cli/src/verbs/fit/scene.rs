@@ -11,13 +11,13 @@ use super::{
     FitArguments,
     among::{Among, Replaced, chosen},
     asked::{Asked, FLAG},
+    check_tests, is_on,
     shown::{Shown, shown},
     solver::{Poser, Solver},
     target::{Compared, Target, check_alone, targets},
     watched::Progress,
 };
 use crate::{
-    args::Switch,
     error::CliError,
     input::{Input, setting},
     operand::print_notes,
@@ -117,6 +117,15 @@ impl<'p> Plan<'p> {
         let tests = curves.iter().zip(&own);
         let tests = tests.map(|((asked, curve), own)| test(arguments, asked, curve, own));
         let mut tests = tests.collect::<Result<Vec<Test>, _>>()?;
+        let any = |is_one: fn(&Test) -> bool| tests.iter().any(is_one);
+        let is_timed =
+            |own: &(Asked, Target)| own.0.rate.is_none() && !own.1.output.is_oscillation();
+        check_tests([
+            ("--until", arguments.until.is_some(), curves.iter().any(is_timed)),
+            ("--shift", arguments.shift.is_some(), any(|own| own.kind != Kind::Modulus)),
+            ("--offset", arguments.offset.is_some(), any(|own| own.kind != Kind::Modulus)),
+            ("--cfc", arguments.cfc.is_some(), any(|own| own.filter.is_some())),
+        ])?;
         // The same test as far as anybody has said.
         let said = |own: &(Asked, Target)| (own.0.what().to_owned(), own.1.output.key());
         for (at, test) in tests.iter_mut().enumerate() {
@@ -171,9 +180,9 @@ impl<'p> Plan<'p> {
             posers[at].posed(&own).map_err(wrong)?;
         }
         let settings = NetworkSettings {
-            starts: self.arguments.starts,
-            seed: self.arguments.seed,
-            is_robust: self.arguments.robust == Switch::On,
+            starts: self.arguments.starts(),
+            seed: self.arguments.seed(),
+            is_robust: is_on(self.arguments.robust),
             profile,
         };
         let progress = Progress::new(self.tests.len(), self.terminal);
@@ -353,12 +362,12 @@ fn test(
     }
     let cfc = asked.cfc.or(arguments.cfc).filter(|_| kind == Kind::Blow);
     // A motion at a stated rate has no clock.
-    let is_shifted = arguments.shift == Switch::On && kind != Kind::Modulus && asked.rate.is_none();
+    let is_shifted = is_on(arguments.shift) && kind != Kind::Modulus && asked.rate.is_none();
     Ok(Test {
         rows: curve.rows.clone(),
         kind,
         is_shifted,
-        is_offset: arguments.offset == Switch::On && kind != Kind::Modulus,
+        is_offset: is_on(arguments.offset) && kind != Kind::Modulus,
         gain: asked.gain.or(arguments.gain),
         filter: cfc.map(|own| (own, arguments.padding())),
         noise,

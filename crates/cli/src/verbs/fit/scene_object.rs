@@ -79,6 +79,7 @@ fn test(all: &FittedScene, at: usize) -> impl Serialize + '_ {
         cfc: all.tests[at].filter.map(|own| own.0.class()),
         noise: own.noise,
         noise_at_rest: own.noise_at_rest,
+        other_zero: own.other_zero.map(|own| object! { rows: own.rows, median: own.median }),
         scatter: own.scatter.map(|own| object! {
             deviation: own.deviation,
             correlation: own.correlation,

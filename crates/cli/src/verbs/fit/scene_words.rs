@@ -192,6 +192,9 @@ impl FittedScene {
             })
         }));
         let each = || self.curves.iter().zip(&fit.tests).zip(&self.tests);
+        all.extend(each().filter_map(|(((asked, curve), own), _)| {
+            other_zero(own, &asked.file, &|own| curve.output.told(own, FEW))
+        }));
         all.extend(each().filter_map(|(((asked, curve), own), test)| {
             misses(&asked.file, &curve.output.key(), own, test)
         }));
@@ -340,6 +343,19 @@ fn undetermined(own: &Shown) -> String {
         own.element,
         constants.collect::<Vec<_>>().join(", ")
     )
+}
+
+/// Rows before the impact that contradict the zero of a test.
+fn other_zero(own: &TestFit, file: &str, of: &dyn Fn(f64) -> String) -> Option<String> {
+    let other = own.other_zero?;
+    Some(format!(
+        "{file}: the {} rows before the impact read {} where nothing happens, and the fitted zero is {}: they \
+         contradict each other, so that the model, its bounds or the clock is not right (`--offset off` takes the zero \
+         as it is)",
+        other.rows,
+        of(other.median),
+        of(own.offset)
+    ))
 }
 
 fn misses(file: &str, key: &str, own: &TestFit, test: &Test) -> Option<String> {

@@ -39,6 +39,11 @@ impl Compared {
         }
     }
 
+    /// Whether its rows are over a frequency.
+    pub(super) fn is_oscillation(&self) -> bool {
+        matches!(self, Self::Alone(own) if own.is_oscillation())
+    }
+
     /// The dimension of what is left of it.
     pub(super) fn dimension(&self) -> Dimension {
         match self {

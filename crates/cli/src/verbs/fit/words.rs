@@ -1,9 +1,9 @@
 //! What a fit says: tables and sentences.
 
-use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Misfit, Range, RecordFit};
+use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Range, RecordFit};
 use dashpot_plot::Table;
 
-use super::Fitted;
+use super::{Fitted, Told};
 use crate::numbers::{quantity, share};
 
 /// Digits of fitted values.
@@ -90,16 +90,13 @@ pub(super) fn branches(fitted: &Fitted) -> Table {
     Table::new(caption, &[time, "strength"], single.chain(branches))
 }
 
-/// How far something is from a record.
-pub(super) fn misfit(own: Misfit, record: &RecordFit, unit: &str) -> String {
-    match record.largest {
-        None => format!("{} rms, {} at most", share(own.rms), share(own.largest)),
-        Some(largest) => format!(
-            "{} rms, {} at most",
-            quantity(own.rms * largest, unit, FEW),
-            quantity(own.largest * largest, unit, FEW)
-        ),
-    }
+/// A part of a record, or of its largest value: in the mean (root of the mean square).
+pub(super) fn rms(own: f64, record: &RecordFit, unit: &str) -> String {
+    format!("{} rms", part(own, record, unit))
+}
+
+fn part(own: f64, record: &RecordFit, unit: &str) -> String {
+    record.largest.map_or_else(|| share(own), |largest| quantity(own * largest, unit, FEW))
 }
 
 /// The table of the records.
@@ -109,8 +106,12 @@ pub(super) fn records(fitted: &Fitted) -> Table {
         vec![
             told.file.clone(),
             told.what.clone(),
-            misfit(own.floor, own, unit),
-            misfit(own.misfit, own, unit),
+            rms(own.floor, own, unit),
+            format!(
+                "{}, {} at most",
+                rms(own.misfit.rms, own, unit),
+                part(own.misfit.largest, own, unit)
+            ),
         ]
     });
     let header = ["file", "record", "no network comes nearer than", "this one"];
@@ -122,7 +123,8 @@ pub(super) fn warnings(fitted: &Fitted) -> Vec<String> {
     let Fitted { fit, .. } = fitted;
     let mut all: Vec<String> = Vec::new();
     for (told, own) in fitted.records.iter().zip(&fit.records) {
-        all.extend(own.contradiction.map(|own| contradicts(&told.file, &own, fit.floor)));
+        all.extend(own.contradiction.map(|of| contradicts(&told.file, &of, own.floor)));
+        all.extend(apart(told, own));
     }
     if !fit.is_kept {
         all.push("refinement did not converge: the stated error is not kept".to_owned());
@@ -130,13 +132,36 @@ pub(super) fn warnings(fitted: &Fitted) -> Vec<String> {
     all
 }
 
-fn contradicts(file: &str, own: &Contradiction, floor: Misfit) -> String {
+/// So many rows that were left out are named.
+const NAMED: usize = 5;
+
+/// The rows of a record that were left out.
+fn apart(told: &Told, record: &RecordFit) -> Option<String> {
+    let rows = record.outliers.iter().take(NAMED).map(|own| {
+        let way = if own.off > 0.0 { "above" } else { "below" };
+        let line = told.lines.get(own.row).copied().unwrap_or_default();
+        format!("line {line} is {} {way} the curve of the others", share(own.off.abs()))
+    });
+    let rows: Vec<String> = rows.collect();
+    let more = record.outliers.len() - rows.len();
+    let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+    (!rows.is_empty()).then(|| {
+        format!(
+            "{}: {}{more}: an outlier, or what no branch does that the rows determine; left out (`--robust off` counts \
+             all rows)",
+            told.file,
+            rows.join(", ")
+        )
+    })
+}
+
+fn contradicts(file: &str, own: &Contradiction, floor: f64) -> String {
     format!(
         "{file}: storage and loss contradict each other (Kramers–Kronig): no network of springs and dashpots comes \
          nearer than {} rms, though storage alone is met within {} and loss alone within {}. The storage asks for a \
          loss that is {} off in the median, the loss for a storage that is {} off. A master curve that is stretched \
          by its shift factors does that, and so does a loss that is not from the same strain or temperature",
-        share(floor.rms),
+        share(floor),
         share(own.storage_alone),
         share(own.loss_alone),
         share(own.loss_from_storage),
@@ -149,17 +174,38 @@ pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
     let Fitted { fit, .. } = fitted;
     let unit = fitted.units().answer;
     let mut all = Vec::new();
-    all.push(match fit.against {
-        Against::Data => format!(
-            "the fewest branches within {} of every row; the floor is that of any network of springs and dashpots",
-            share(fitted.error)
-        ),
-        Against::Floor => format!(
-            "the rows themselves are further than {} from every passive network: the branches are the fewest within \
-             that of the nearest one",
-            share(fitted.error)
-        ),
+    let error = share(fitted.error);
+    let is_met = fit.is_kept && fit.misfit.largest <= fitted.error;
+    let of = if fit.records.iter().any(|own| own.largest.is_some()) {
+        " (of its largest value, where a record has a history)"
+    } else {
+        ""
+    };
+    all.extend(match fit.against {
+        Against::Data => is_met.then(|| format!("the fewest branches within {error} of every row{of}")),
+        Against::Floor => Some(format!(
+            "the nearest network (least squares) is further than {error} from some rows{of}: the branches are the fewest \
+             within that of its curve"
+        )),
     });
+    all.push(
+        "the floor holds for every network of springs and dashpots, whatever its times, with these clocks".to_owned(),
+    );
+    let (low, high) = fit.limits;
+    all.push(format!(
+        "no branch is faster than {} or slower than {}: the rows could not determine it",
+        quantity(low, "s", FEW),
+        quantity(high, "s", FEW)
+    ));
+    let flows = match fit.form {
+        Form::Maxwell => fit.spectrum.spring <= 0.0,
+        Form::Kelvin => fit.spectrum.dashpot > 0.0,
+    };
+    if flows && !fitted.is_solid {
+        all.push(
+            "under a constant force it flows for ever: `--solid` if it is known not to".to_owned(),
+        );
+    }
     for (told, own) in fitted.records.iter().zip(&fit.records).filter(|own| own.1.shift != 0.0) {
         let largest = own.largest.unwrap_or(1.0);
         let late = if own.shift > 0.0 { "later" } else { "earlier" };
@@ -167,7 +213,7 @@ pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
         let without = fit.floor_unshifted.map_or(String::new(), |before| {
             format!(
                 "; without that no network comes nearer than {}",
-                quantity(before.rms * largest, unit, FEW)
+                quantity(before * largest, unit, FEW)
             )
         });
         all.push(format!(
@@ -198,7 +244,7 @@ pub(super) fn comments(fitted: &Fitted) -> Vec<String> {
         "fitted to {}; {} rms, no passive network comes nearer than {}",
         files.join(", "),
         share(fitted.fit.misfit.rms),
-        share(fitted.fit.floor.rms)
+        share(fitted.fit.floor)
     );
     [head].into_iter().chain(ends).collect()
 }
