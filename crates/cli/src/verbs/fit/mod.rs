@@ -44,7 +44,7 @@ use crate::{
 };
 
 /// `[fit]` of a scene; what is fitted to are files beside it.
-const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
+pub(super) const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
 
 /// `fit`.
 #[derive(Debug, Args)]
@@ -182,6 +182,9 @@ struct Fitted {
     fit: LinearFit,
     /// The scene or model with what was found.
     text: String,
+    /// The file of the scene, if there is one, and what is set of it.
+    file: String,
+    set: Vec<(String, String)>,
     /// What the command line asks for, in words.
     asked: Vec<(&'static str, String)>,
 }
@@ -189,6 +192,10 @@ struct Fitted {
 impl Fitted {
     fn units(&self) -> Units {
         Units::of(self.fit.form, self.is_material)
+    }
+
+    fn written(&self) -> SceneText<'_> {
+        SceneText { text: &self.text, file: &self.file, set: &self.set }
     }
 }
 
@@ -206,7 +213,8 @@ pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status
     emit(&fitted, arguments.json, folder, terminal)?;
     if let Some(file) = file {
         let text = fitted.scene_text(&fitted.comments());
-        file.write(&text, |path| format!("wrote {}", path.display()))?;
+        file.write(&fitted.written(&text))?;
+        note(&format!("wrote {}", file.path.display()));
     }
     Ok(if fitted.fit.is_stopped { Status::RunFailed } else { Status::Done })
 }
@@ -248,6 +256,8 @@ fn fit_model(
         records: told.collect(),
         fit,
         text: String::new(),
+        file: input.map_or(String::new(), |own| own.file.clone()),
+        set: arguments.values.set.clone(),
         asked: arguments.in_words(),
     };
     let model = written::model(&fitted.fit)
@@ -256,8 +266,8 @@ fn fit_model(
     fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, folder, terminal)?;
     if let Some(file) = file {
-        let told = |path: &Path| format!("wrote {0}; its model is `{0}:{name}`", path.display());
-        file.write(&fitted.text, told)?;
+        file.write(&fitted.written())?;
+        note(&format!("wrote {0}; its model is `{0}:{name}`", file.path.display()));
     }
     Ok(Status::Done)
 }
