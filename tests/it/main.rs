@@ -82,4 +82,5 @@ mod thesis_command;
 mod thesis_numbers;
 mod verdicts;
 mod vibration;
+mod written_elsewhere;
 mod written_otherwise;

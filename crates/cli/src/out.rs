@@ -141,6 +141,7 @@ fn way(from: &Path, to: &Path) -> io::Result<String> {
     let names = list(up.chain(part(&to)));
     Ok(match shared {
         0 | 1 => format!("{}/", to.display()),
-        _ => names.iter().map(|own| format!("{own}/")).collect(),
+        _ if names.is_empty() => String::new(),
+        _ => names.join("/") + "/",
     })
 }

@@ -139,7 +139,7 @@ pub(crate) fn with_paths(text: &str, verbs: &[Verb], way: &str) -> String {
             let Some(value) = section.get_mut(option).and_then(Item::as_value_mut) else {
                 continue;
             };
-            let mut lead = |own: &mut Value| {
+            let lead = |own: &mut Value| {
                 let led = own.as_str().and_then(|own| {
                     let at = begin(own).filter(|at| !Path::new(&own[*at..]).has_root())?;
                     Some(format!("{}{way}{}", &own[..at], &own[at..]))

@@ -16,6 +16,7 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
+    out::SceneText,
     output::{Pairs, Study, Text, VERSION, list, object},
     verbs::run::{FloorTold, scatter},
 };

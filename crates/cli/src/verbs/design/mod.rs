@@ -44,7 +44,7 @@ use crate::{
     output::{emit, list},
     progress::Bar,
     section::Verb,
-    terminal::Terminal,
+    terminal::{Terminal, note},
 };
 
 /// `[design]` of a scene.

@@ -17,7 +17,7 @@ mod watched;
 mod words;
 mod written;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use dashpot_fit::linear::{
@@ -37,7 +37,7 @@ use crate::{
     error::{CliError, Status},
     folder::Staged,
     input::Input,
-    out::OutArguments,
+    out::{OutArguments, SceneText},
     output::{Pairs, Study, Text, VERSION, emit, list, object},
     section::Verb,
     terminal::{Terminal, note},

@@ -21,6 +21,7 @@ use crate::{
     error::CliError,
     input::{Input, setting},
     operand::print_notes,
+    out::SceneText,
     output::list,
     terminal::{Terminal, note},
     varied::{Varied, unvaried},

@@ -261,12 +261,15 @@ impl Stored {
         let fault = |fault| CliError::Shard { path: folder.to_owned(), fault };
         let text = fs::read(folder.join(RESULT)).map_err(|_| fault(ShardFault::None))?;
         let text = String::from_utf8(text).map_err(|_| fault(ShardFault::Broken(RESULT)))?;
-        let (content, digest) = text.rsplit_once(DIGEST).ok_or(fault(ShardFault::None))?;
+        let Some((content, digest)) = text.rsplit_once(DIGEST) else {
+            let is_one = text.contains("\"shard\"");
+            return Err(fault(if is_one { ShardFault::Broken(RESULT) } else { ShardFault::None }));
+        };
         if digest != origin::sha256(content.as_bytes()) + "\"\n}\n" {
             return Err(fault(ShardFault::Broken(RESULT)));
         }
         let mut own: Self = serde_json::from_str(&text).map_err(|_| fault(ShardFault::None))?;
-        if !(1..=own.place.of.min(MOST)).contains(&own.place.number) {
+        if !SHARDS.allows(own.place.of) || !(1..=own.place.of).contains(&own.place.number) {
             return Err(fault(ShardFault::Broken(RESULT)));
         }
         folder.clone_into(&mut own.folder);
