@@ -247,6 +247,15 @@ fn names_in_tables_are_no_formulas_and_read_back() {
         assert_eq!(code(&run(&["run", text(&source), "--out", text(&results)])), 0);
         let table = fs::read_to_string(results.join("exact.csv")).unwrap();
         let peak = format!("--measure={pad}.peak-force");
+        for name in ["exact.csv", "events.csv"] {
+            let mut cells = csv::Reader::from_path(results.join(name)).unwrap();
+            for row in cells.records().map(Result::unwrap) {
+                let is_live = |own: &&str| {
+                    own.starts_with(['=', '+', '-', '@']) && own.parse::<f64>().is_err()
+                };
+                assert_eq!(row.iter().find(is_live), None, "{name} of {pad}");
+            }
+        }
         let vary = format!("--vary={pad}.spring=1e5,2e5 N/m");
         let swept = out(&run(&["sweep", text(&source), &vary, &peak]));
         for header in [table.lines().next().unwrap(), swept.lines().next().unwrap()] {

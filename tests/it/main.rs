@@ -85,4 +85,5 @@ mod thesis_numbers;
 mod verdicts;
 mod vibration;
 mod windows;
+mod written_elsewhere;
 mod written_otherwise;

@@ -281,3 +281,25 @@ fn words_do_not_stand_under_headings_of_the_results() {
     assert!(said(&refused).contains("a column `warnings` of their own"), "{}", err(&refused));
     assert!(!folder.exists());
 }
+
+/// A damaged summary is named, not the points beside it; without it the sweep goes on from them.
+#[test]
+fn a_damaged_summary_is_named_and_one_that_is_gone_is_written_again() {
+    let room = TempDir::new().unwrap();
+    let (scene, folder) = (file(&room, "soft.toml", SOFT), room.path().join("points"));
+    let sweep = ["sweep", text(&scene), "--vary", "head.velocity=0.5..9 m/s,100", "--parquet"];
+    let swept = || run(&[&sweep[..], &["--out", text(&folder)]].concat());
+    assert_eq!(code(&swept()), 0);
+    let result = folder.join("result.json");
+    let whole = fs::read(&result).unwrap();
+    fs::write(&result, &whole[1..]).unwrap();
+    let refused = swept();
+    assert_eq!(code(&refused), 2);
+    assert!(said(&refused).contains("result.json"), "{}", err(&refused));
+    assert!(!said(&refused).contains("points-00000001"), "{}", err(&refused));
+    fs::remove_file(&result).unwrap();
+    let again = swept();
+    assert_eq!(code(&again), 0, "{}", err(&again));
+    assert!(said(&again).contains("1 of 1 files are there, whole"), "{}", err(&again));
+    assert_eq!(fs::read(&result).unwrap(), whole);
+}

@@ -143,7 +143,11 @@ fn a_shard_that_is_whole_is_left_and_others_are_refused_by_name() {
     fs::write(&values, bytes).unwrap();
     let broken = merge(&folders, &[]);
     assert_eq!(code(&broken), 2);
-    assert!(said(&broken).contains("3-of-3`: the values of its shard are not"), "{}", err(&broken));
+    assert!(
+        said(&broken).contains("3-of-3`: `values.f64` of its shard is not"),
+        "{}",
+        err(&broken)
+    );
     fs::remove_dir_all(&folders[0]).unwrap();
     let solved = run(&[&sweep[..], &["--shard", "3/3", "--out", &folders[0]]].concat());
     assert_eq!(code(&solved), 0, "{}", err(&solved));
@@ -169,4 +173,59 @@ fn places_that_are_none_are_refused() {
     let nowhere = run(&["sweep", "--vary", "head.velocity=5..10 m/s,25", "--shard", "1/3"]);
     assert_eq!(code(&nowhere), 2);
     assert!(said(&nowhere).contains("--out"), "{}", err(&nowhere));
+}
+
+/// Each flipped bit of the result of a shard is seen before anything of it is believed.
+#[test]
+fn a_result_of_a_shard_that_is_not_as_it_was_written_is_refused() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "soft.toml", SOFT);
+    let sweep = ["sweep", text(&scene), "--vary", "head.velocity=0.5..9 m/s,130"];
+    let folders = shards(&sweep, 2, room.path());
+    let result = Path::new(&folders[0]).join("result.json");
+    let whole = fs::read(&result).unwrap();
+    let expected = out(&merge(&folders, &["--json"]));
+    let refused = |bytes: &[u8], what: &str| {
+        fs::write(&result, bytes).unwrap();
+        let merged = merge(&folders, &["--json"]);
+        assert_eq!((code(&merged), out(&merged).as_str()), (2, ""), "{what}: {}", err(&merged));
+        let named = said(&merged).contains("2-of-2`: `result.json` of its shard is not as it was");
+        assert!(named || said(&merged).contains("no shard of a sweep"), "{what}: {}", err(&merged));
+    };
+    for at in (0..whole.len()).step_by(whole.len() / 60) {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 1 << (at % 7);
+        refused(&bytes, &format!("bit {} of byte {at}", at % 7));
+    }
+    let text = String::from_utf8(whole.clone()).unwrap();
+    for (from, to) in [
+        (
+            "\"gaps\": []",
+            "\"gaps\": [{\"point\":100,\"column\":1000000000,\"reason\":\"x\",\"is_infinite\":false}]",
+        ),
+        ("\"end\": 130", "\"end\": 10000000000"),
+        ("\"of\": 2", "\"of\": 4000000000"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        refused(text.replace(from, to).as_bytes(), from);
+    }
+    fs::write(&result, &whole).unwrap();
+    assert_eq!(out(&merge(&folders, &["--json"])), expected);
+}
+
+/// What may be left out takes time to find out; how much does not stand in what is compared.
+#[test]
+fn what_is_left_out_is_told_without_a_clock() {
+    let room = TempDir::new().unwrap();
+    let sweep =
+        ["sweep", "reference-gravity", "--vary", "head.velocity=12..16 m/s,9", "--neglect", "1%"];
+    let folder = room.path().join("out");
+    let swept = run(&[&sweep[..], &["--out", text(&folder)]].concat());
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    for text in [said(&swept), out(&swept).split_whitespace().collect::<Vec<_>>().join(" "), page] {
+        let told = text.find("left out everywhere: gravity").map(|at| &text[at..]);
+        let told = told.and_then(|own| own.split(['<', '\n']).next()).unwrap_or_default();
+        assert!(!told.contains("takes about"), "{told}");
+    }
+    is_the_same(&sweep, &[1]);
 }

@@ -257,3 +257,56 @@ fn notes_do_not_stand_before_an_error() {
         assert!(err(&refused).starts_with("error: "), "{}", err(&refused));
     }
 }
+
+/// Characters that Unicode leaves to programs, and those that turn the direction of what follows, come from scenes, names
+/// and arguments as text; styles are the program's.
+#[test]
+fn no_text_of_a_file_becomes_a_style_or_turns_around() {
+    const LIVE: [char; 7] =
+        ['\u{fdd0}', '\u{fdd3}', '\u{fdef}', '\u{202e}', '\u{2066}', '\u{1b}', '\u{feff}'];
+    let all: String = LIVE.iter().collect();
+    let escaped: String = LIVE.iter().map(|own| format!("\\u{:04x}", u32::from(*own))).collect();
+    let room = TempDir::new().unwrap();
+    let text_of = format!(
+        "title = \"{escaped}error: your disk is full\"\n[nodes]\nhead = {{ mass = \"5 kg\", velocity = \"4 m/s\" }}\n\
+         [elements]\npad = {{ between = [\"head\", \"ground\"], spring = \"80 kN/m\" }}\n\
+         [limits]\nhead.peak-acceleration = {{ max = \"250 g\", from = \"EN {escaped} 1078\" }}\n[run]\nduration = \"40 ms\"\n"
+    );
+    let scene = file(&room, "scene.toml", &text_of);
+    let folder = room.path().join("out");
+    for arguments in [
+        &["run", text(&scene), "--out", text(&folder)][..],
+        &["run", text(&scene), "--measure", &format!("{all}.x")],
+        &["explain", text(&scene), "--verbose"],
+        &["check", text(&scene)],
+        &["vibrate", text(&scene)],
+        &["groups", text(&scene)],
+        &["sweep", text(&scene), "--vary", "head.velocity=1..4 m/s,3", "--table", "always"],
+        &["run", &format!("{all}.toml")],
+    ] {
+        for color in ["always", "never"] {
+            let output = run(&[arguments, &["--color", color]].concat());
+            for stream in [out(&output), err(&output)] {
+                // Our own styles: bold, colours, their end.
+                let rest = stream.replace("\u{1b}[", "");
+                assert!(!rest.contains(LIVE), "{arguments:?} {color}: {stream:?}");
+                assert!(
+                    color == "always" || !stream.contains('\u{1b}'),
+                    "{arguments:?}: {stream:?}"
+                );
+                let faked = "\u{1b}[1m\u{1b}[31merror: your";
+                assert!(!stream.contains(faked), "{arguments:?}: {stream:?}");
+            }
+        }
+    }
+    let pages = fs::read_dir(&folder).unwrap().map(|own| own.unwrap().path());
+    let pages =
+        pages.filter(|own| own.extension().is_some_and(|own| own == "html" || own == "svg"));
+    let mut count = 0;
+    for page in pages {
+        let own = fs::read_to_string(&page).unwrap();
+        assert!(!own.contains(LIVE), "{}", page.display());
+        count += 1;
+    }
+    assert!(count > 3, "{count}");
+}

@@ -7,8 +7,8 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Canonical, LinearModel};
 use dashpot_scene::{
-    ModelNote, NamedModel, ReadOptions, Remark, Scene, read, read_named_model, read_network,
-    references,
+    ModelNote, NamedModel, ReadOptions, Remark, Scene, read, read_models, read_named_model,
+    read_network, references,
 };
 
 use crate::{
@@ -138,10 +138,35 @@ pub(crate) fn read_scene(
     set: &[(String, String)],
     terminal: Terminal,
 ) -> Result<Scene, CliError> {
-    let input = Input::of(path)?;
+    read_scene_of(&Input::of(path)?, set, terminal)
+}
+
+/// The same of what was read already.
+pub(crate) fn read_scene_of(
+    input: &Input,
+    set: &[(String, String)],
+    terminal: Terminal,
+) -> Result<Scene, CliError> {
     let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
     terminal.diagnose(&checked.warnings);
     Ok(checked.value)
+}
+
+/// The models of a file that has them and no scene, by what they are; `None` for a scene.
+pub(crate) fn read_models_of(
+    input: &Input,
+    set: &[(String, String)],
+    terminal: Terminal,
+) -> Result<Option<String>, CliError> {
+    let Some(found) = read_models(input.text()?, &input.options(set)) else { return Ok(None) };
+    let found = found.map_err(CliError::Scene)?;
+    terminal.diagnose(&found.warnings);
+    let name = |own: &NamedModel| {
+        format!("{} `{}`", if own.is_material { "material" } else { "model" }, own.name)
+    };
+    let names = found.value.iter().map(name).collect::<Vec<_>>().join(", ");
+    let first = found.value.into_iter().next().map(|own| own.name).unwrap_or_default();
+    Ok(Some(format!("{names}, and no scene: others name them as `{}:{first}`", input.file)))
 }
 
 impl SceneArguments {

@@ -2,12 +2,21 @@
 
 use std::{
     ffi::OsStr,
+    fs, io,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
+use dashpot_scene::{Diagnostic, Diagnostics, ReadOptions, pose, read_models, with_paths};
 
-use crate::{error::CliError, folder::Folder, part::write_text, terminal::note};
+use crate::{
+    error::CliError,
+    folder::Folder,
+    input::load,
+    output::list,
+    part::{can_write, write_text},
+    verbs::with_paths_of_sections,
+};
 
 /// Where what was found goes.
 #[derive(Debug, Args)]
@@ -23,9 +32,9 @@ pub(crate) struct OutArguments {
 
 /// A file for a scene.
 pub(crate) struct SceneFile<'a> {
-    path: &'a Path,
+    pub(crate) path: &'a Path,
     /// Whether it is overwritten if there is one.
-    force: bool,
+    pub(crate) force: bool,
 }
 
 impl OutArguments {
@@ -36,21 +45,103 @@ impl OutArguments {
     ) -> Result<(Option<Folder>, Option<SceneFile<'_>>), CliError> {
         let Some(path) = self.out.as_deref() else { return Ok((None, None)) };
         if path.extension() == Some(OsStr::new("toml")) {
-            return Ok((None, Some(SceneFile { path, force: self.force })));
+            return Ok((None, Some(SceneFile::new(path, self.force)?)));
         }
         Ok((Folder::wanted(Some(path), names)?, None))
     }
 }
 
-impl SceneFile<'_> {
-    /// Writes the scene, and tells of it.
-    pub(crate) fn write(
-        &self,
-        text: &str,
-        told: impl FnOnce(&Path) -> String,
-    ) -> Result<(), CliError> {
-        write_text(self.path, text, self.force)?;
-        note(&told(self.path));
-        Ok(())
+impl<'a> SceneFile<'a> {
+    /// A file that can be written, so that no work is done in vain.
+    pub(crate) fn new(path: &'a Path, force: bool) -> Result<Self, CliError> {
+        can_write(path, force)?;
+        Ok(Self { path, force })
     }
+
+    /// Writes the text of a scene.
+    pub(crate) fn write(&self, text: &SceneText<'_>) -> Result<(), CliError> {
+        write_text(self.path, &text.at(self.path)?, self.force)
+    }
+}
+
+/// The text of a scene or of models, as it is to be written.
+pub(crate) struct SceneText<'t> {
+    pub(crate) text: &'t str,
+    /// The file beside which it is read so far.
+    pub(crate) file: &'t str,
+    /// Values of the table [values] that the command line sets, which do not stand in it.
+    pub(crate) set: &'t [(String, String)],
+}
+
+impl SceneText<'_> {
+    /// The text as a file at `path` says the same: files beside it are found from there. It is read as from there, and
+    /// compared.
+    ///
+    /// Paths are rewritten and files not copied: a copy would lose its origin, and grow old beside it.
+    pub(crate) fn at(&self, path: &Path) -> Result<String, CliError> {
+        let [from, to] = [Path::new(self.file), path].map(folder_of);
+        let failed = |source| CliError::Unwritable { path: path.to_owned(), source };
+        // A text of a program that calls is in no folder.
+        let way = if from.is_dir() { way(&to, &from).map_err(failed)? } else { String::new() };
+        let led = |name: &str| {
+            let is_absolute = name.starts_with(['/', '\\']) || name.contains(':');
+            (!is_absolute && from.join(name).exists()).then(|| format!("{way}{name}"))
+        };
+        let text = if way.is_empty() {
+            self.text.to_owned()
+        } else {
+            with_paths_of_sections(&with_paths(self.text, &led), &way)
+        };
+        let otherwise = |reason| CliError::WrittenOtherwise { path: path.to_owned(), reason };
+        let read = |text: &str, file: &str| {
+            let options = ReadOptions { file: Some(file), set: self.set, loader: Some(&load) };
+            said(text, &options)
+        };
+        let again = read(&text, &path.to_string_lossy()).map_err(|faults| {
+            otherwise(list(faults.list.iter().map(Diagnostic::message)).join("; "))
+        })?;
+        if text != self.text && read(self.text, self.file).is_ok_and(|own| own != again) {
+            return Err(otherwise("its numbers are others there".to_owned()));
+        }
+        Ok(text)
+    }
+}
+
+/// All that a text says to a solver: what is printed of numbers tells them apart to the bit.
+fn said(text: &str, options: &ReadOptions<'_>) -> Result<String, Diagnostics> {
+    match read_models(text, options) {
+        Some(models) => {
+            Ok(list(models?.value.iter().map(|own| format!("{} {:?}", own.name, own.model)))
+                .concat())
+        }
+        None => pose(text, options).map(|own| format!("{own:?}")),
+    }
+}
+
+fn folder_of(file: &Path) -> PathBuf {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// What leads from one folder to another, before the name of a file there: empty where it is the same one, and absolute
+/// where they share no folder but the root.
+fn way(from: &Path, to: &Path) -> io::Result<String> {
+    let (from, to) = (fs::canonicalize(from)?, fs::canonicalize(to)?);
+    let shared = from.components().zip(to.components()).take_while(|own| own.0 == own.1).count();
+    let part = |path: &Path| {
+        list(
+            path.components()
+                .skip(shared)
+                .map(|own| own.as_os_str().to_string_lossy().into_owned()),
+        )
+    };
+    let up = from.components().skip(shared).map(|_| "..".to_owned());
+    let names = list(up.chain(part(&to)));
+    Ok(match shared {
+        0 | 1 => format!("{}/", to.display()),
+        _ if names.is_empty() => String::new(),
+        _ => names.join("/") + "/",
+    })
 }

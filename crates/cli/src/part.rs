@@ -101,15 +101,23 @@ fn token_and_number(name: &OsStr) -> Option<(&str, &str)> {
     name.to_str()?.strip_prefix(begin)?.strip_suffix(end)?.split_once('-')
 }
 
+/// What is said of a file that is there.
+const FORCED: &str = "`--force` overwrites it";
+
 /// Writes `text` to a file that is not there yet, or in place of a regular one with `force`.
 pub(crate) fn write_text(path: &Path, text: &str, force: bool) -> Result<(), CliError> {
-    write_whole(path, text, "`--force` overwrites it", |_| force)
+    write_whole(path, text, FORCED, |_| force)
 }
 
 /// Writes `drawing` to a file that is not there yet, or in place of another drawing.
 pub(crate) fn write_drawing(path: &Path, drawing: &str) -> Result<(), CliError> {
     let help = "only a drawing is overwritten: name another file, or move this one away";
     write_whole(path, drawing, help, |begin| begin.starts_with(b"<svg"))
+}
+
+/// Finds out whether [`write_text`] can do so, before there is a text.
+pub(crate) fn can_write(path: &Path, force: bool) -> Result<(), CliError> {
+    place(path, "", FORCED, |_| force).map(drop)
 }
 
 /// Writes `text` to a file that is not there yet, or in place of a regular one that `may_replace`
@@ -121,7 +129,27 @@ fn write_whole(
     may_replace: impl FnOnce(&[u8]) -> bool,
 ) -> Result<(), CliError> {
     let unwritable = unwritable(path);
-    let foreign = || CliError::Foreign { path: path.to_owned(), help };
+    let (part, old) = place(path, text, help, may_replace)?;
+    match old {
+        Some(own) => {
+            fs::set_permissions(&part.path, own.permissions()).map_err(&unwritable)?;
+            part.place(path).map_err(unwritable)
+        }
+        None => part.place_new(path).map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists => CliError::Foreign { path: path.to_owned(), help },
+            _ => unwritable(error),
+        }),
+    }
+}
+
+/// The `text` beside the place of a file, and what is there so far.
+fn place(
+    path: &Path,
+    text: &str,
+    help: &'static str,
+    may_replace: impl FnOnce(&[u8]) -> bool,
+) -> Result<(Part, Option<Metadata>), CliError> {
+    let unwritable = unwritable(path);
     let folder = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
@@ -134,22 +162,13 @@ fn write_whole(
             return Err(CliError::Foreign { path: path.to_owned(), help });
         }
         if !may_replace(&beginning(path).unwrap_or_default()) {
-            return Err(foreign());
+            return Err(CliError::Foreign { path: path.to_owned(), help });
         }
     }
     let name = part_name(&token(), 0);
     let made = Part::new(folder, &name, |out| out.write_all(text.as_bytes()));
-    let (part, _) = made.map_err(&unwritable)?;
-    match old {
-        Some(own) => {
-            fs::set_permissions(&part.path, own.permissions()).map_err(&unwritable)?;
-            part.place(path).map_err(unwritable)
-        }
-        None => part.place_new(path).map_err(|error| match error.kind() {
-            ErrorKind::AlreadyExists => foreign(),
-            _ => unwritable(error),
-        }),
-    }
+    let (part, _) = made.map_err(unwritable)?;
+    Ok((part, old))
 }
 
 /// What is at `path`, links not followed.

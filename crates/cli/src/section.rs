@@ -5,6 +5,7 @@ use std::{ffi::OsString, path::Path};
 
 use clap::{ArgAction, Args, Command, FromArgMatches};
 use dashpot_scene::{Wish, wishes};
+use toml_edit::{DocumentMut, Item, Value};
 
 use crate::{error::CliError, host, input::Input, output::list};
 
@@ -124,6 +125,38 @@ impl Verb {
             }))),
         }
     }
+}
+
+/// The text of a scene where the files that the sections of these verbs name have `way` before them, unless they are
+/// absolute.
+pub(crate) fn with_paths(text: &str, verbs: &[Verb], way: &str) -> String {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
+    for verb in verbs {
+        let Some(section) = document.get_mut(verb.name).and_then(Item::as_table_like_mut) else {
+            continue;
+        };
+        for (option, begin) in verb.files {
+            let Some(value) = section.get_mut(option).and_then(Item::as_value_mut) else {
+                continue;
+            };
+            let lead = |own: &mut Value| {
+                let led = own.as_str().and_then(|own| {
+                    let at = begin(own).filter(|at| !Path::new(&own[*at..]).has_root())?;
+                    Some(format!("{}{way}{}", &own[..at], &own[at..]))
+                });
+                if let Some(led) = led {
+                    let decor = own.decor().clone();
+                    *own = Value::from(led);
+                    *own.decor_mut() = decor;
+                }
+            };
+            match value {
+                Value::Array(all) => all.iter_mut().for_each(lead),
+                own => lead(own),
+            }
+        }
+    }
+    document.to_string()
 }
 
 /// A file that is named in a scene is one beside it.

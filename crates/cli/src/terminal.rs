@@ -3,12 +3,13 @@
 use std::{
     fmt::Write as _,
     io::{self, ErrorKind, IsTerminal, Write},
+    sync::LazyLock,
 };
 
 use clap::builder::styling::{AnsiColor, Style};
 use dashpot_scene::{Diagnostics, visible};
 
-use crate::{args::When, error::CliError, host, text::hanging};
+use crate::{args::When, error::CliError, host, part::token, text::hanging};
 
 /// Columns of text.
 pub(crate) const WIDTH: usize = 80;
@@ -182,16 +183,18 @@ pub(crate) enum Tone {
     Help,
 }
 
-/// All of them, each with its mark; Unicode assigns no characters to these, and never will.
-const MARKS: [(char, Tone); 5] = [
-    ('\u{fdd0}', Tone::Heading),
-    ('\u{fdd1}', Tone::Warning),
-    ('\u{fdd2}', Tone::Faint),
-    ('\u{fdd3}', Tone::Error),
-    ('\u{fdd4}', Tone::Help),
+/// All of them, each with its letter in a mark.
+const TONES: [(char, Tone); 5] = [
+    ('h', Tone::Heading),
+    ('w', Tone::Warning),
+    ('f', Tone::Faint),
+    ('e', Tone::Error),
+    ('p', Tone::Help),
 ];
-/// Marks the end of a style.
-const END: char = '\u{fdef}';
+/// The letter of the end of a style.
+const END: char = '.';
+/// What marks begin with: a character that Unicode leaves to programs, and digits that no text of a file can know.
+static MARK: LazyLock<String> = LazyLock::new(|| format!("\u{fdd0}{}", token()));
 
 impl Tone {
     fn style(self) -> Style {
@@ -207,24 +210,23 @@ impl Tone {
 
 /// The text between the marks of a tone.
 pub(crate) fn marked(tone: Tone, text: &str) -> String {
-    let mark = MARKS.iter().find(|own| own.1 == tone).map(|own| own.0);
-    mark.into_iter().chain(text.chars()).chain([END]).collect()
+    let letter = TONES.iter().find(|own| own.1 == tone).map_or(END, |own| own.0);
+    let mark = MARK.as_str();
+    format!("{mark}{letter}{text}{mark}{END}")
 }
 
 /// The text with styles for marks, and all else visible.
 pub(crate) fn shown(text: &str) -> String {
-    let visible = visible(text);
-    let mut shown = String::with_capacity(visible.len());
-    for char in visible.chars() {
-        match MARKS.iter().find(|(mark, _)| *mark == char) {
-            Some((_, tone)) => {
-                let _ = write!(shown, "{}", tone.style());
-            }
-            None if char == END => {
-                let _ = write!(shown, "{}", Tone::Heading.style().render_reset());
-            }
-            None => shown.push(char),
-        }
+    let mut parts = text.split(MARK.as_str());
+    let mut shown = visible(parts.next().unwrap_or_default()).into_owned();
+    for part in parts {
+        let mut rest = part.chars();
+        let letter = rest.next();
+        let _ = match TONES.iter().find(|own| Some(own.0) == letter) {
+            Some((_, tone)) => write!(shown, "{}", tone.style()),
+            None => write!(shown, "{}", Tone::Heading.style().render_reset()),
+        };
+        shown += &visible(rest.as_str());
     }
     shown
 }
@@ -237,5 +239,6 @@ mod tests {
     fn only_our_styles_reach_a_terminal() {
         let text = format!("a{}\n", marked(Tone::Heading, "\u{1b}[31mb\u{9b}c"));
         assert_eq!(shown(&text), "a\u{1b}[1m\\u001b[31mb\\u009bc\u{1b}[0m\n");
+        assert_eq!(shown("\u{fdd0}he\u{fdd3}error\u{fdef}"), "\\ufdd0he\\ufdd3error\\ufdef");
     }
 }

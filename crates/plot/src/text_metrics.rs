@@ -3,7 +3,7 @@
 //! No font is at hand where a drawing is made, so widths are estimated from classes of characters, on the wide side.
 
 /// `text` as XML character data: markup characters escaped, line breaks and tabs as spaces, and characters that XML
-/// forbids replaced by U+FFFD.
+/// forbids or nobody sees replaced by U+FFFD.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -24,11 +24,19 @@ pub(crate) fn one_line(text: &str) -> String {
     text.chars().map(printable).collect()
 }
 
+/// Whether a character turns the direction of what is around it, has no width, separates lines, is a tag, or is never
+/// a character.
+fn is_hidden(c: char) -> bool {
+    matches!(c,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}' | '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+        | '\u{2060}'..='\u{206f}' | '\u{fdd0}'..='\u{fdef}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
+        | '\u{fffe}'..='\u{ffff}' | '\u{e0000}'..='\u{e007f}')
+}
+
 fn printable(c: char) -> char {
     match c {
         '\n' | '\r' | '\t' => ' ',
-        '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
-        c if c.is_control() => '\u{fffd}',
+        c if c.is_control() || is_hidden(c) => '\u{fffd}',
         c => c,
     }
 }

@@ -31,7 +31,7 @@ pub use curves::CurveChange;
 pub use dashpot_units as units;
 pub use diagnostics::fault::Fault;
 pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
-pub use models::named::{NamedModel, read_named_model};
+pub use models::named::{NamedModel, read_models, read_named_model};
 pub use models::notes::{ModelNote, Remark, RestRemoved};
 pub use outline::{OutlineRow, outline};
 pub use quantities::bare::BareNumber;
@@ -45,17 +45,18 @@ pub use schema::schema;
 pub use sections::{WISHING, Wish, parse_limits, wishes};
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use tables::{
-    DataTable, Heading, LeftOut, Likewise, TableError, TableFault, table_text, text_cell,
+    DataTable, Heading, LeftOut, Likewise, TableError, TableFault, guarded, table_text, text_cell,
 };
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};
 pub use text::source::Source;
-pub use text::visible::{is_control, visible};
+pub use text::visible::{is_control, is_hidden, visible};
 pub use vary::listed::{Listed, ListedFault};
 pub use vary::scatter::{Change, Drawn, Sample, ScatteredNumber};
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};
+pub use write::references::with_paths;
 pub use write::rewrite::with_model;
 pub use write::scene::{Unwritable, write_scene};
 pub use write::{write_effect, write_kind, write_material_table, write_model, write_model_table};

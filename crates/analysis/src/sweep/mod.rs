@@ -141,7 +141,6 @@ fn decided(
         checked: found.checked().map(|at| scene_point[at].0).collect(),
         worst,
         solves: found.solves(),
-        wall_in_full: found.wall_in_full(grid.len()),
         left_out: found.left_out(),
         put_back: found.put_back.clone(),
     };

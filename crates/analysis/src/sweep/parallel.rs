@@ -17,12 +17,6 @@ const PULSE: Duration = Duration::from_millis(20);
 /// Tells how many points of how many are done; `Break` ends the sweep.
 pub type Watch<'w> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'w;
 
-/// How many of some threads find work in so many rows.
-pub(super) fn workers(threads: usize, rows: usize) -> u32 {
-    let workers = threads.clamp(1, rows.div_ceil(GROUP).max(1));
-    u32::try_from(workers).unwrap_or(u32::MAX)
-}
-
 /// Does something for each group of so many of some `rows`, by so many threads, each with a `tool` of its own. False
 /// where the watcher broke it off.
 pub(crate) fn share<R: Send, T>(

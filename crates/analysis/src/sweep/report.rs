@@ -83,9 +83,6 @@ pub struct PartialOfSweep {
     pub worst: Option<Cost>,
     /// Solutions that finding this out took.
     pub solves: usize,
-    /// Wall-clock time that the whole sweep would take in full by as many threads, from the mean of the
-    /// points that were solved in full.
-    pub wall_in_full: Duration,
 }
 
 impl SweepReport {
@@ -174,6 +171,12 @@ pub enum SweepError {
         /// The first such point, from 0.
         point: usize,
     },
+    /// A shard whose values, gaps or warnings are not those of its points.
+    #[error("the shard from point {} on speaks of points or columns that it does not have", point + 1)]
+    OtherPoints {
+        /// Its first point, from 0.
+        point: usize,
+    },
     /// A point is not warned of what its shard says.
     #[error("point {} is not warned of what its shard says: it was solved by another program", point + 1)]
     OtherWarnings {
@@ -241,7 +244,11 @@ pub(super) fn collect(rows: &[Row<'_>], element: &str) -> (Vec<Warning>, Vec<Rai
     }
     all.0
         .into_iter()
-        .map(|(own, place)| (own.warning, Raised { points: own.points, place }))
+        .map(|(own, place)| {
+            let neighbours = own.points.chunk_by(|one, next| one + 1 == *next);
+            let ranges = neighbours.filter_map(|own| Some(*own.first()?..own.last()? + 1));
+            (own.warning, Raised { points: ranges.collect(), place })
+        })
         .unzip()
 }
 

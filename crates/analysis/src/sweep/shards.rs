@@ -15,7 +15,7 @@ use super::{
     Watch, decided,
     full::{Flaws, Full, check},
     instantiated::Plan,
-    parallel::{GROUP, share, workers},
+    parallel::{GROUP, share},
     report::{self, Kinds},
 };
 use crate::{Limit, Warning};
@@ -49,17 +49,40 @@ impl Shard {
         self.points = 0..self.points.len();
         self.gaps.iter_mut().for_each(|own| own.point -= first);
         self.cut.iter_mut().for_each(|own| own.0 -= first);
-        self.raised.iter_mut().flat_map(|own| &mut own.points).for_each(|own| *own -= first);
+        let ranges = self.raised.iter_mut().flat_map(|own| &mut own.points);
+        ranges.for_each(|own| *own = own.start - first..own.end - first);
         self
+    }
+
+    /// Whether all that it says is about its own points and so many columns, in their order, with a value and an error
+    /// for each.
+    fn is_of(&self, columns: usize) -> bool {
+        let (points, count) = (&self.points, self.points.len().checked_mul(columns));
+        let has = |point: usize, column: Option<usize>| {
+            points.contains(&point) && column.is_none_or(|own| own < columns)
+        };
+        let rises = |own: &Raised| {
+            let ends = own.points.iter().flat_map(|own| [own.start, own.end - 1]);
+            own.points
+                .iter()
+                .all(|own| !own.is_empty() && has(own.start, None) && own.end <= points.end)
+                && ends.is_sorted()
+        };
+        [self.values.len(), self.errors.len()].map(Some) == [count; 2]
+            && self.instantiated.max(self.estimated) <= points.len()
+            && self.gaps.iter().all(|own| has(own.point, own.column))
+            && self.gaps.is_sorted_by_key(|own| own.point)
+            && self.cut.iter().all(|own| has(own.0, Some(own.1)))
+            && self.cut.is_sorted()
+            && self.raised.iter().all(|own| !own.points.is_empty() && rises(own))
     }
 }
 
 /// Where runs are warned of one kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Raised {
-    /// The points, rising; serialised as ranges.
-    #[serde(with = "ranges")]
-    pub points: Vec<usize>,
+    /// The points, as rising ranges.
+    pub points: Vec<Range<usize>>,
     /// The place of the warning among those of the first point.
     pub place: usize,
 }
@@ -127,7 +150,8 @@ pub fn sweep_in_parts<E: From<SweepError>>(
 ///
 /// # Errors
 ///
-/// Points that are in no shard or in two, and those of [`sweep`](super::sweep()).
+/// Points that are in no shard or in two, shards that speak of other points than theirs, and those of
+/// [`sweep`](super::sweep()).
 pub fn merge(
     grid: &Grid,
     pose: &Pose<'_>,
@@ -138,10 +162,11 @@ pub fn merge(
     let started = Instant::now();
     let mut at = 0;
     for shard in &shards {
-        let count = shard.points.len() * columns.len();
-        let is_whole = shard.values.len() == count && shard.errors.len() == count;
-        if shard.points.start != at || !is_whole {
+        if shard.points.start != at || shard.points.end < at {
             return Err(SweepError::NotWhole { point: at });
+        }
+        if !shard.is_of(columns.len()) {
+            return Err(SweepError::OtherPoints { point: at });
         }
         at = shard.points.end;
     }
@@ -266,7 +291,7 @@ impl Ready<'_> {
         raised: &Raised,
         known: &mut BTreeMap<usize, Vec<Vec<Warning>>>,
     ) -> Result<Warning, SweepError> {
-        let point = raised.points.first().copied().unwrap_or_default();
+        let point = raised.points.first().map_or(0, |own| own.start);
         let start = point / GROUP * GROUP;
         let group = known.entry(start).or_insert_with(|| {
             let points = start..self.full.grid.len().min(start + GROUP);
@@ -287,7 +312,7 @@ impl Ready<'_> {
         for (own, warnings) in shards {
             for (raised, warning) in own.raised.iter().zip(&warnings) {
                 let kind = kinds.of(warning, raised.place);
-                raised.points.iter().for_each(|&point| kinds.add(kind, point));
+                raised.points.iter().cloned().flatten().for_each(|point| kinds.add(kind, point));
             }
             join(&mut sum.values, own.values);
             join(&mut sum.errors, own.errors);
@@ -320,9 +345,7 @@ impl Ready<'_> {
             wall: Duration::ZERO,
         };
         if let Some(own) = self.partial.clone() {
-            // As many threads would share the work in full.
-            let wall_in_full = own.wall_in_full / workers(self.options.threads, report.points());
-            report.charge(PartialOfSweep { wall_in_full, ..own });
+            report.charge(own);
         }
         report
     }
@@ -351,20 +374,4 @@ fn rows<'r>(
         Row { point, values, errors, flaws, warnings, notice }
     };
     points.clone().zip(places).map(row).collect()
-}
-
-/// Rising numbers as ranges of neighbours.
-mod ranges {
-    use std::ops::Range;
-
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub(super) fn serialize<S: Serializer>(all: &[usize], to: S) -> Result<S::Ok, S::Error> {
-        let runs = all.chunk_by(|one, next| one + 1 == *next);
-        to.collect_seq(runs.filter_map(|own| Some(*own.first()?..own.last()? + 1)))
-    }
-
-    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Vec<usize>, D::Error> {
-        Ok(Vec::<Range<usize>>::deserialize(from)?.into_iter().flatten().collect())
-    }
 }

@@ -102,6 +102,9 @@ pub(crate) enum CliError {
     /// A file or folder that cannot be written.
     #[error("`{}` cannot be written: {}", .path.display(), reason(.source))]
     Unwritable { path: PathBuf, source: io::Error },
+    /// A scene that would not be the same where it is to be written.
+    #[error("as `{}` the scene would not be the same: {reason}", .path.display())]
+    WrittenOtherwise { path: PathBuf, reason: String },
     /// A folder that another process writes to.
     #[error("another run is writing to `{}`", .path.display())]
     Busy { path: PathBuf },

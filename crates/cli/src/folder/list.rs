@@ -35,7 +35,7 @@ pub(super) struct List {
 
 impl List {
     /// That of a folder. Results without the file [`RESULT`] are not whole, and where no writer was at
-    /// work they are nobody's.
+    /// work they are nobody's, but for files of points, each of which is whole by itself.
     pub(super) fn read(folder: &Path) -> Result<Self, CliError> {
         let path = folder.join(LIST);
         let foreign = || CliError::Foreign {
@@ -55,7 +55,7 @@ impl List {
         })?;
         let mut list = Self::parse(&text).ok_or_else(foreign)?;
         if list.at_work.is_none() && !list.has(folder, RESULT) {
-            list.files.clear();
+            list.files.retain(|own| is_of_points(&own.0));
         }
         Ok(list)
     }

@@ -17,6 +17,7 @@ use self::list::List;
 use crate::{
     error::{CliError, unwritable},
     host,
+    out::SceneText,
     part::{Fingerprint, Part, metadata, part_name, token},
     terminal::{WIDTH, message, print},
     text::wrapped,
@@ -171,7 +172,8 @@ fn refuse_foreign(
     list: &List,
     names: impl Iterator<Item = String>,
 ) -> Result<(), CliError> {
-    for name in names.chain([RESULT.to_owned()]) {
+    // The result first: where it is not as it was written, the others are nobody's.
+    for name in [RESULT.to_owned()].into_iter().chain(names) {
         let path = folder.join(&name);
         if !list::is_name(&name) {
             return Err(unwritable(&path)(io::Error::from(ErrorKind::InvalidFilename)));
@@ -215,6 +217,17 @@ impl<'f> Staged<'f> {
         content: impl AsRef<[u8]>,
     ) -> Result<(), CliError> {
         self.add_with(name, |out| out.write_all(content.as_ref()))
+    }
+
+    /// Adds the text of a scene, which says the same there.
+    pub(crate) fn add_scene(
+        &mut self,
+        name: impl Into<String>,
+        text: &SceneText<'_>,
+    ) -> Result<(), CliError> {
+        let name = name.into();
+        let text = text.at(&self.folder.path.join(&name))?;
+        self.add(name, text)
     }
 
     /// Adds a file with what `fill` writes.

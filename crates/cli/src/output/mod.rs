@@ -5,8 +5,9 @@ mod text;
 
 use std::io::{self, Write};
 
-use dashpot_scene::text_cell;
+use dashpot_scene::{guarded, text_cell};
 use serde::{Serialize, Serializer};
+use serde_json::Value;
 
 use crate::{
     error::CliError,
@@ -17,7 +18,8 @@ use crate::{
 
 pub(crate) use text::Text;
 
-/// Writes a heading and rows; a cell without a value is blank.
+/// Writes a heading and rows; a cell without a value is blank. A text that a sheet would take for a formula is guarded
+/// in cells as in headings; a number stays one.
 pub(crate) fn csv(
     out: &mut dyn Write,
     header: impl IntoIterator<Item = String>,
@@ -26,8 +28,24 @@ pub(crate) fn csv(
     let header: Vec<String> = header.into_iter().map(|own| text_cell(&own).into_owned()).collect();
     writeln!(out, "{}", header.join(","))?;
     let mut writer = csv::Writer::from_writer(out);
-    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    for row in rows {
+        cells(&serde_json::to_value(row)?, &mut writer)?;
+        writer.write_record(None::<&[u8]>)?;
+    }
     writer.flush()
+}
+
+/// The cells of a row or of a part of it.
+fn cells(part: &Value, writer: &mut csv::Writer<impl Write>) -> csv::Result<()> {
+    match part {
+        Value::Array(all) => all.iter().try_for_each(|own| cells(own, writer)),
+        Value::Object(all) => all.values().try_for_each(|own| cells(own, writer)),
+        Value::Null => writer.write_field(""),
+        Value::Bool(own) => writer.write_field(own.to_string()),
+        Value::Number(own) => writer.write_field(own.to_string()),
+        Value::String(own) if own.parse::<f64>().is_ok() => writer.write_field(own),
+        Value::String(own) => writer.write_field(guarded(own).as_ref()),
+    }
 }
 
 /// File of a folder that has everything on one page.

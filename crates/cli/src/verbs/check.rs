@@ -10,9 +10,10 @@ use dashpot_scene::Scene;
 use crate::{
     args::ValueArguments,
     error::{CliError, Status},
+    input::Input,
     non_identifiable::notes,
     numbers::counted,
-    operand::read_scene,
+    operand::{read_models_of, read_scene_of},
     terminal::{Terminal, WIDTH, note, print},
     text::hanging,
 };
@@ -24,7 +25,7 @@ use crate::{
     dashpot check scenes/*.toml\n\n\
     Exit codes: 0 all are valid (warnings included), 2 one is not.")]
 pub(crate) struct CheckArguments {
-    /// Files of scenes; `-` for standard input.
+    /// Files of scenes, or of models alone; `-` for standard input.
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<PathBuf>,
     #[command(flatten)]
@@ -52,7 +53,11 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: Terminal) -> Result<St
 }
 
 fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<String, CliError> {
-    let scene = read_scene(Some(path), set, terminal)?;
+    let input = Input::read(path)?;
+    if let Some(models) = read_models_of(&input, set, terminal)? {
+        return Ok(models);
+    }
+    let scene = read_scene_of(&input, set, terminal)?;
     can_run(&scene)?;
     undefined(&scene)?.iter().for_each(|text| terminal.warn(text));
     notes(&scene).iter().for_each(|text| note(text));

@@ -1,6 +1,6 @@
 //! `dashpot convert`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{
     Args,
@@ -18,7 +18,7 @@ use crate::{
     error::{CliError, Status},
     numbers::bound,
     operand::{Operand, Subject},
-    part::write_text,
+    out::{SceneFile, SceneText},
     terminal::{Terminal, note, print, print_data},
 };
 
@@ -65,6 +65,8 @@ pub(crate) fn convert(
     terminal: Terminal,
 ) -> Result<Status, CliError> {
     let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
+    let file = arguments.out.as_deref().map(|path| SceneFile::new(path, arguments.force));
+    let file = file.transpose()?;
     let word = || operand.word.clone();
     let linear = operand.linear()?.ok_or_else(|| CliError::MovingMasses { word: word() })?;
     let target = Target::named(&arguments.to)
@@ -96,14 +98,10 @@ pub(crate) fn convert(
         }
     };
     confirm(&operand, &text, &format!("{section}.{name}"), &model, set)?;
-    match &arguments.out {
-        Some(path) => {
-            write_text(path, &text, arguments.force)?;
-            let elsewhere = path.parent() != Path::new(&operand.input.file).parent();
-            if elsewhere && text.contains(".toml:") {
-                note("models of other files are now looked for beside the new file");
-            }
-            let path = path.display();
+    match file {
+        Some(file) => {
+            file.write(&SceneText { text: &text, file: &operand.input.file, set })?;
+            let path = file.path.display();
             print(&format!("wrote {path}; its model is `{path}:{name}`\n"))?;
         }
         None => print_data(&text)?,

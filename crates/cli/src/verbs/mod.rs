@@ -29,8 +29,14 @@ pub(crate) use self::check::undefined;
 use crate::{
     args::When,
     error::{CliError, Status},
+    section::with_paths,
     terminal::Terminal,
 };
+
+/// The text of a scene where the files that its sections of options name have `way` before them.
+pub(crate) fn with_paths_of_sections(text: &str, way: &str) -> String {
+    with_paths(text, &[fit::SECTION, design::SECTION], way)
+}
 
 /// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
 #[derive(Debug, Parser)]

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     check::network_faults::value_of,
-    diagnostics::{Checked, Diagnostics, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, fault::Fault},
     scene::{ReadOptions, checked, load},
     sections::ELEMENT_KEYS,
     text::{
@@ -127,6 +127,40 @@ pub fn read_named_model(
         };
         Some(NamedModel { name, model, section, is_material, notes, span })
     })
+}
+
+/// The sections of a text that has models and no scene.
+const OF_MODELS: [&str; 4] = ["title", "values", "models", "materials"];
+
+/// Reads all models and materials of a text that has them and nothing else, as [`read_named_model`] does; `None` where
+/// it has more, so that it is to be read as a scene, or none.
+pub fn read_models(
+    text: &str,
+    options: &ReadOptions<'_>,
+) -> Option<Result<Checked<Vec<NamedModel>>, Diagnostics>> {
+    let names = checked(|faults| {
+        let (library, _) = load(text, options, faults)?;
+        let is_alone = library.sections().iter().all(|own| OF_MODELS.contains(&&*own.key));
+        let of = |own: ModelSection| {
+            let key = own.key();
+            library.names(0, own).into_iter().map(move |name| format!("{key}.{name}"))
+        };
+        Some(MODEL_SECTIONS.into_iter().flat_map(of).filter(|_| is_alone).collect::<Vec<_>>())
+    });
+    let names = names.ok().map(|own| own.value).filter(|own| !own.is_empty())?;
+    let mut all = Checked { value: Vec::new(), warnings: Diagnostics::default() };
+    for name in names {
+        match read_named_model(text, &name, options) {
+            Ok(own) => {
+                all.value.push(own.value);
+                let is_new = |one: &Diagnostic| !all.warnings.list.contains(one);
+                let new: Vec<_> = own.warnings.list.into_iter().filter(is_new).collect();
+                all.warnings.list.extend(new);
+            }
+            Err(faults) => return Some(Err(faults)),
+        }
+    }
+    Some(Ok(all))
 }
 
 /// Where a name leads, and whether it leads elsewhere, too.

@@ -79,7 +79,15 @@ pub fn schema() -> Value {
             "design": options_of("design"),
             "scatter": together(),
         },
-        "required": ["elements", "run"],
+        "anyOf": [
+            { "required": ["elements", "run"] },
+            {
+                "description": "models alone, for other scenes",
+                "properties": { "title": true, "values": true, "models": true, "materials": true },
+                "additionalProperties": false,
+                "anyOf": [{ "required": ["models"] }, { "required": ["materials"] }],
+            },
+        ],
         "additionalProperties": false,
         "$defs": definitions(),
     })

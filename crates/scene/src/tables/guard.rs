@@ -21,11 +21,16 @@ const GUARD: char = '\'';
 /// assert_eq!(text_cell("-x;y"), "\"'-x;y\"");
 /// ```
 pub fn text_cell(name: &str) -> Cow<'_, str> {
-    let guarded = if is_live(name) { format!("{GUARD}{name}").into() } else { Cow::Borrowed(name) };
+    let guarded = guarded(name);
     if guarded.contains([',', ';', '\t', '"', '\n', '\r']) {
         return format!("\"{}\"", guarded.replace('"', "\"\"")).into();
     }
     guarded
+}
+
+/// A text with an apostrophe before it where a sheet would evaluate it.
+pub fn guarded(text: &str) -> Cow<'_, str> {
+    if is_live(text) { format!("{GUARD}{text}").into() } else { Cow::Borrowed(text) }
 }
 
 /// A name without the apostrophe of [`text_cell`].

@@ -26,7 +26,7 @@ pub(crate) use self::cells::{Field, is_no_unit};
 pub use self::{
     encoding::table_text,
     fault::{Likewise, TableError, TableFault},
-    guard::text_cell,
+    guard::{guarded, text_cell},
     left_out::LeftOut,
 };
 

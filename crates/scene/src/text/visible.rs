@@ -9,8 +9,8 @@ pub fn is_control(own: char) -> bool {
 }
 
 /// Whether a character is none to be seen: one that turns the direction of what is around it, has no
-/// width, separates lines or is a tag. What joins letters or keeps them apart belongs to them.
-pub(crate) fn is_hidden(own: char) -> bool {
+/// width, separates lines, is a tag or never a character. What joins letters or keeps them apart belongs to them.
+pub fn is_hidden(own: char) -> bool {
     matches!(
         own,
         '\u{ad}'
@@ -20,8 +20,10 @@ pub(crate) fn is_hidden(own: char) -> bool {
             | '\u{200e}'..='\u{200f}'
             | '\u{2028}'..='\u{202e}'
             | '\u{2060}'..='\u{206f}'
+            | '\u{fdd0}'..='\u{fdef}'
             | '\u{feff}'
             | '\u{fff9}'..='\u{fffb}'
+            | '\u{fffe}'..='\u{ffff}'
             | '\u{e0000}'..='\u{e007f}'
     )
 }

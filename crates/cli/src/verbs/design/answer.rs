@@ -16,6 +16,7 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
+    out::SceneText,
     output::{Pairs, Study, Text, VERSION, list, object},
     verbs::run::{FloorTold, scatter},
 };
@@ -39,8 +40,10 @@ pub(super) struct Answer {
     pub(super) front: Vec<Point>,
     /// Of the best, test by test.
     pub(super) floors: Vec<FloorTold>,
-    /// The scenes of all tests with the best, that of the command first.
-    pub(super) texts: Vec<String>,
+    /// The files of the scenes of all tests, that of the command first, and their texts with the best.
+    pub(super) texts: Vec<(String, String)>,
+    /// What the command line sets.
+    pub(super) set: Vec<(String, String)>,
     /// For figures: what becomes of the best along each number.
     pub(super) slices: Vec<Vec<Looked>>,
     /// What the command line asks for, in words.
@@ -70,7 +73,13 @@ impl Answer {
 
     /// The scene with the best.
     pub(super) fn text(&self) -> &str {
-        self.texts.first().map_or("", String::as_str)
+        self.texts.first().map_or("", |own| own.1.as_str())
+    }
+
+    /// The text of one of the scenes with the best, as it is written.
+    pub(super) fn written(&self, scene: usize) -> SceneText<'_> {
+        let (file, text) = self.texts.get(scene).map_or(("", ""), |own| (&own.0, &own.1));
+        SceneText { text, file, set: &self.set }
     }
 
     /// The name of a test, where there is more than one.

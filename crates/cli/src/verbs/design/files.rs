@@ -70,8 +70,8 @@ impl DesignArguments {
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
     let Some((_, best)) = answer.best() else { return Ok(()) };
-    for (at, text) in answer.texts.iter().enumerate() {
-        files.add(scene_file(at), text)?;
+    for at in 0..answer.texts.len() {
+        files.add_scene(scene_file(at), &answer.written(at))?;
     }
     files.add_with(DESIGNS, |out| {
         let (header, rows) = designs(answer, best);

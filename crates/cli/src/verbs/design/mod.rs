@@ -44,11 +44,11 @@ use crate::{
     output::{emit, list},
     progress::Bar,
     section::Verb,
-    terminal::Terminal,
+    terminal::{Terminal, note},
 };
 
 /// `[design]` of a scene.
-const SECTION: Verb = Verb { name: "design", files: &[("test", scenes::file_at)] };
+pub(super) const SECTION: Verb = Verb { name: "design", files: &[("test", scenes::file_at)] };
 
 /// `design`.
 #[derive(Debug, Args)]
@@ -210,7 +210,9 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         Some(FloorTold::of(&point.network, point.settings.duration, &point.settings.limits))
     };
     let floors = asked.tests.iter().filter_map(told).collect();
-    let texts = list(scenes.iter().map(|own| posing.written(own, choice, &best.values)));
+    let text =
+        |own: &TestScene| (own.input.file.clone(), posing.written(own, choice, &best.values));
+    let texts = list(scenes.iter().map(text));
     let slices = match &folder {
         Some(_) => figures::slices(arguments, &posing, choice, best),
         None => Vec::new(),
@@ -218,11 +220,12 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     let is_kept = is_kept(best);
     let settings = arguments.in_words();
     scenes::print_all_notes(&scenes);
-    let answer =
-        Answer { scene, asked: asked.clone(), found, front, floors, texts, slices, settings };
+    let (asked, set) = (asked.clone(), set.clone());
+    let answer = Answer { scene, asked, found, front, floors, texts, set, slices, settings };
     emit(&answer, arguments.json, folder, terminal)?;
     if let Some(file) = file {
-        file.write(answer.text(), |path| format!("wrote {}", path.display()))?;
+        file.write(&answer.written(0))?;
+        note(&format!("wrote {}", file.path.display()));
     }
     Ok(if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done })
 }

@@ -13,9 +13,10 @@ use dashpot_scene::{Scene, outline};
 use crate::{
     args::SceneArguments,
     error::{CliError, Status},
-    input::title,
+    input::{Input, title},
     non_identifiable::notes,
     numbers::constant,
+    operand::{read_models_of, read_scene_of},
     output::Text,
     part::write_drawing,
     sketch::{MOST_DRAWN, sketch},
@@ -53,12 +54,30 @@ pub(crate) fn explain(
     arguments: &ExplainArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let scene = arguments.scene.read(terminal)?;
+    let SceneArguments { scene: path, values } = &arguments.scene;
+    let input = Input::of(path.as_deref())?;
+    if let Some(models) = read_models_of(&input, &values.set, terminal)? {
+        if arguments.out.is_some() {
+            return Err(CliError::WrongSetting {
+                name: "--out".to_owned(),
+                reason: "a file of models has no network to draw".to_owned(),
+            });
+        }
+        let rows = written(input.text()?, &values.set);
+        print(&Text::written(terminal, |text| {
+            text.title(&input.file);
+            section(text, &rows);
+            text.blank();
+            text.paragraphs([&models]);
+        }))?;
+        return Ok(Status::Done);
+    }
+    let scene = read_scene_of(&input, &values.set, terminal)?;
     let is_verbose = arguments.verbose;
     let (solving, effects) = (solving(&scene, is_verbose)?, effects::contributed(&scene)?);
     let mut text = Text::written(terminal, |text| {
         text.title(title(&scene));
-        section(text, &written(&scene, &arguments.scene.values.set));
+        section(text, &written(&scene.text, &arguments.scene.values.set));
         text.heading("What it becomes");
         text.lines(&indented(&drawing(&scene)));
         for content in built::tables(&scene) {
@@ -108,7 +127,7 @@ fn drawing(scene: &Scene) -> String {
 }
 
 /// The text of the scene, in its order and its units; a section is named in its first row.
-fn written(scene: &Scene, set: &[(String, String)]) -> Table {
+fn written(scene: &str, set: &[(String, String)]) -> Table {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let (mut last, mut count) = (String::new(), 0);
     let close = |rows: &mut Vec<Vec<String>>, count: usize| {
@@ -116,7 +135,7 @@ fn written(scene: &Scene, set: &[(String, String)]) -> Table {
             rows.push(vec![String::new(), format!("and {} more", count - MOST)]);
         }
     };
-    for row in outline(&scene.text, set) {
+    for row in outline(scene, set) {
         let is_first = row.section != last;
         if is_first {
             close(&mut rows, count);

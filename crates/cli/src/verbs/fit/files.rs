@@ -59,7 +59,7 @@ pub(super) fn write_fitted_scene(
     fitted: &FittedScene,
 ) -> Result<(), CliError> {
     let text = fitted.scene_text(&fitted.comments());
-    files.add(SCENE, &text)?;
+    files.add_scene(SCENE, &fitted.written(&text))?;
     let figures = figures::write(files, &of_scene(fitted))?;
     let notes = said::notes(&fitted.scene).into_iter().chain(fitted.notes());
     let known = fitted.warnings();
@@ -83,7 +83,7 @@ pub(super) fn write_fitted_scene(
 
 /// Adds all files of a model that was fitted but the result.
 pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted) -> Result<(), CliError> {
-    files.add(SCENE, &fitted.text)?;
+    files.add_scene(SCENE, &fitted.written())?;
     let figures: Vec<ReportFigure> = figures::write(files, &of_model(fitted))?;
     let tables = [words::records(fitted), words::determined(fitted), words::branches(fitted)];
     let notes = Table::list("Remarks", words::notes(fitted));

@@ -17,7 +17,7 @@ mod watched;
 mod words;
 mod written;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use dashpot_fit::linear::{
@@ -37,14 +37,14 @@ use crate::{
     error::{CliError, Status},
     folder::Staged,
     input::Input,
-    out::OutArguments,
+    out::{OutArguments, SceneText},
     output::{Pairs, Study, Text, VERSION, emit, list, object},
     section::Verb,
     terminal::{Terminal, note},
 };
 
 /// `[fit]` of a scene; what is fitted to are files beside it.
-const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
+pub(super) const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0))] };
 
 /// `fit`.
 #[derive(Debug, Args)]
@@ -247,6 +247,9 @@ struct Fitted {
     fit: LinearFit,
     /// The scene or model with what was found.
     text: String,
+    /// The file of the scene, if there is one, and what is set of it.
+    file: String,
+    set: Vec<(String, String)>,
     /// What the command line asks for, in words.
     asked: Vec<(&'static str, String)>,
 }
@@ -254,6 +257,10 @@ struct Fitted {
 impl Fitted {
     fn units(&self) -> Units {
         Units::of(self.fit.form, self.is_material)
+    }
+
+    fn written(&self) -> SceneText<'_> {
+        SceneText { text: &self.text, file: &self.file, set: &self.set }
     }
 }
 
@@ -271,7 +278,8 @@ pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status
     emit(&fitted, arguments.json, folder, terminal)?;
     if let Some(file) = file {
         let text = fitted.scene_text(&fitted.comments());
-        file.write(&text, |path| format!("wrote {}", path.display()))?;
+        file.write(&fitted.written(&text))?;
+        note(&format!("wrote {}", file.path.display()));
     }
     Ok(if fitted.fit.is_stopped { Status::RunFailed } else { Status::Done })
 }
@@ -330,6 +338,8 @@ fn fit_model(
         records: told.collect(),
         fit,
         text: String::new(),
+        file: input.map_or(String::new(), |own| own.file.clone()),
+        set: arguments.values.set.clone(),
         asked: arguments.in_words(),
     };
     let model = written::model(&fitted.fit)
@@ -338,8 +348,8 @@ fn fit_model(
     fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, folder, terminal)?;
     if let Some(file) = file {
-        let told = |path: &Path| format!("wrote {0}; its model is `{0}:{name}`", path.display());
-        file.write(&fitted.text, told)?;
+        file.write(&fitted.written())?;
+        note(&format!("wrote {0}; its model is `{0}:{name}`", file.path.display()));
     }
     Ok(Status::Done)
 }

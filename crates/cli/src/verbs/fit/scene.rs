@@ -21,6 +21,7 @@ use crate::{
     error::CliError,
     input::{Input, setting},
     operand::print_notes,
+    out::SceneText,
     output::list,
     terminal::{Terminal, note},
     varied::{Varied, unvaried},
@@ -60,6 +61,8 @@ pub(super) struct FittedScene {
     /// What the command line asks for, in words.
     pub(super) asked: Vec<(&'static str, String)>,
     pub(super) tunables: Tunables,
+    /// What the command line sets.
+    set: Vec<(String, String)>,
 }
 
 /// What is fitted to what.
@@ -223,6 +226,7 @@ impl<'p> Plan<'p> {
         let fitted = whole.posed(&found).ok();
         let asked = self.arguments.in_words();
         let has_scatter = self.arguments.scatter;
+        let set = unvaried(&self.arguments.values.set, &self.numbers, &self.tunables);
         drop(posers);
         let Self { scene, tunables, curves, known, tests, .. } = self;
         Ok(FittedScene {
@@ -240,6 +244,7 @@ impl<'p> Plan<'p> {
             fitted,
             asked,
             tunables,
+            set,
         })
     }
 }
@@ -416,6 +421,11 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
 }
 
 impl FittedScene {
+    /// A text of the scene as it is written.
+    pub(super) fn written<'t>(&'t self, text: &'t str) -> SceneText<'t> {
+        SceneText { text, file: self.scene.file.as_deref().unwrap_or_default(), set: &self.set }
+    }
+
     /// The text of the scene with the numbers that were found, below lines on where they are from.
     pub(super) fn scene_text(&self, comments: &[String]) -> String {
         let rounded = |own: f64| format!("{:.*e}", DIGITS - 1, own).parse().unwrap_or(f64::NAN);

@@ -24,8 +24,8 @@ use crate::{
     input::{setting, title},
     numbers::{constant, significant},
     operand::{note_means, print_notes, read_scene},
+    out::{SceneFile, SceneText},
     output::{Study, Text, emit, list, object},
-    part::write_text,
     terminal::{Terminal, note},
 };
 
@@ -96,6 +96,9 @@ struct GroupsStudy {
 pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<Status, CliError> {
     let set = &arguments.values.set;
     let scene = read_scene(arguments.first.as_deref(), set, terminal)?;
+    if let Some(path) = &arguments.out {
+        SceneFile::new(path, arguments.force)?;
+    }
     let mut network = scene.network.clone();
     let mut name = title(&scene).to_owned();
     if !arguments.from.is_empty() {
@@ -160,7 +163,7 @@ fn write(
     let wish = if arguments.lab.is_empty() { &arguments.from } else { &arguments.lab };
     let comment = format!("Made from {name} for {}.", pairs(wish));
     let text = write_scene(title, &[comment], network, &run, settings)?;
-    write_text(path, &text, arguments.force)
+    SceneFile { path, force: arguments.force }.write(&SceneText { text: &text, file: "", set: &[] })
 }
 
 fn pairs(all: &[(String, String)]) -> String {

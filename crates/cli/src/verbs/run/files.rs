@@ -22,6 +22,7 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
+    out::SceneText,
     output::{csv, list},
     said,
     sketch::{MOST_DRAWN, sketch},
@@ -72,7 +73,9 @@ pub(super) fn names() -> impl Iterator<Item = String> {
 pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
     let has = |kind: Written| kind.is_in(&answer.wishes.written);
     if has(Written::Scene) {
-        files.add(SCENE, resolved_scene::text(&answer.scene, &answer.changes))?;
+        let text = resolved_scene::text(&answer.scene, &answer.changes);
+        let (file, set) = (answer.scene.file.as_deref().unwrap_or_default(), &answer.changes.set);
+        files.add_scene(SCENE, &SceneText { text: &text, file, set })?;
     }
     if has(Written::Figures) || has(Written::Page) {
         write_figures(files, answer)?;

@@ -51,15 +51,18 @@ pub(crate) struct MergeArguments {
     output: OutputArguments,
 }
 
+/// Before the hash of all that stands before it, the last key of a shard's result: nothing of it is believed before.
+const DIGEST: &str = ",\n  \"digest\": \"";
+
 /// What is wrong with a folder of a shard.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(crate) enum ShardFault {
     /// There is no result of a shard.
     #[error("there is no shard of a sweep in it, or not yet")]
     None,
-    /// Its values are gone, or not those that were written.
-    #[error("the values of its shard are not as they were written")]
-    Broken,
+    /// A file of it is gone, or not as it was written.
+    #[error("`{0}` of its shard is not as it was written")]
+    Broken(&'static str),
     /// It is of another sweep than the others.
     #[error("its shard is of another sweep than the first one")]
     OfAnother,
@@ -81,7 +84,7 @@ impl ShardFault {
     pub(crate) fn help(&self) -> &'static str {
         match self {
             Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
-            Self::Broken => "remove the folder, and solve the shard again",
+            Self::Broken(_) => "remove the folder, and solve the shard again",
             Self::OfAnother | Self::Twice => "leave the folder out",
             Self::Changed => "solve all shards again, or bring back what was changed",
             Self::Taken(_) => "choose another folder for `--out`, or remove this one",
@@ -210,7 +213,13 @@ impl Study for OfShard<'_> {
     }
 
     fn object(&self) -> impl Serialize {
-        object! {
+        #[derive(Serialize)]
+        struct Whole<C> {
+            #[serde(flatten)]
+            content: C,
+            digest: String,
+        }
+        let content = object! {
             dashpot: VERSION,
             title: &self.scene.title,
             file: &self.scene.file,
@@ -221,7 +230,10 @@ impl Study for OfShard<'_> {
             shard: &self.shard,
             values: VALUES,
             sha256: origin::sha256(&self.bytes),
-        }
+        };
+        let text = serde_json::to_string_pretty(&content).unwrap_or_default();
+        let digest = origin::sha256(text.strip_suffix("\n}").unwrap_or(&text).as_bytes());
+        Whole { content, digest }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
@@ -247,12 +259,23 @@ impl Stored {
     /// The shard in a folder, with its values.
     fn read(folder: &Path) -> Result<Self, CliError> {
         let fault = |fault| CliError::Shard { path: folder.to_owned(), fault };
-        let text = fs::read_to_string(folder.join(RESULT)).map_err(|_| fault(ShardFault::None))?;
+        let text = fs::read(folder.join(RESULT)).map_err(|_| fault(ShardFault::None))?;
+        let text = String::from_utf8(text).map_err(|_| fault(ShardFault::Broken(RESULT)))?;
+        let Some((content, digest)) = text.rsplit_once(DIGEST) else {
+            let is_one = text.contains("\"shard\"");
+            return Err(fault(if is_one { ShardFault::Broken(RESULT) } else { ShardFault::None }));
+        };
+        if digest != origin::sha256(content.as_bytes()) + "\"\n}\n" {
+            return Err(fault(ShardFault::Broken(RESULT)));
+        }
         let mut own: Self = serde_json::from_str(&text).map_err(|_| fault(ShardFault::None))?;
+        if !SHARDS.allows(own.place.of) || !(1..=own.place.of).contains(&own.place.number) {
+            return Err(fault(ShardFault::Broken(RESULT)));
+        }
         folder.clone_into(&mut own.folder);
-        let bytes = fs::read(folder.join(VALUES)).map_err(|_| fault(ShardFault::Broken))?;
+        let bytes = fs::read(folder.join(VALUES)).map_err(|_| fault(ShardFault::Broken(VALUES)))?;
         if origin::sha256(&bytes) != own.sha256 {
-            return Err(fault(ShardFault::Broken));
+            return Err(fault(ShardFault::Broken(VALUES)));
         }
         let numbers =
             bytes.chunks_exact(8).filter_map(|own| Some(f64::from_le_bytes(own.try_into().ok()?)));

@@ -10,7 +10,7 @@ use dashpot_scene::{Remark, Variation, units::si_unit};
 
 use super::{Form, SweepArguments, Swept, Varied, kept, unmoved::unmoved};
 use crate::{
-    numbers::{self, Unit, apart, bound, counted, duration, estimate, significant},
+    numbers::{self, Unit, apart, bound, counted, estimate, significant},
     output::list,
     verbs::run::{level, unit_of_kind},
 };
@@ -253,7 +253,7 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
     all.extend(means(swept));
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));
-    all.extend(report.partial.iter().flat_map(|own| left_out(own, report)));
+    all.extend(report.partial.iter().flat_map(left_out));
     all.extend(missing(swept));
     all.extend(unmoved(swept));
     all
@@ -262,7 +262,7 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
 /// What a reader must know before any number: warnings, and what is missing.
 pub(super) fn warned(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
-    let partial = report.partial.iter().flat_map(|own| left_out(own, report));
+    let partial = report.partial.iter().flat_map(left_out);
     let all = warnings(swept, report, points).into_iter().chain(missing(swept));
     all.chain(partial).chain(unmoved(swept)).collect()
 }
@@ -340,7 +340,7 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
     all
 }
 
-fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<String> {
+fn left_out(partial_of_sweep: &PartialOfSweep) -> Vec<String> {
     let names: Vec<String> = partial_of_sweep
         .left_out
         .iter()
@@ -352,20 +352,11 @@ fn left_out(partial_of_sweep: &PartialOfSweep, report: &SweepReport) -> Vec<Stri
     let most = partial_of_sweep.worst.as_ref().map_or(String::new(), |worst| {
         format!("; `{}` moves by {}, the most of all", worst.measure, apart(worst.most()))
     });
-    // Nothing is saved where nothing is left out.
-    let saving = if names.is_empty() {
-        String::new()
-    } else {
-        format!(
-            "; that took {} in all, where the sweep in full takes about {}",
-            duration(report.wall),
-            duration(partial_of_sweep.wall_in_full)
-        )
-    };
     let names = if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
     let checked = counted(partial_of_sweep.checked.len(), "point");
     let mut all = vec![format!(
-        "left out everywhere: {names}{most}; solved with and without it at {checked}{saving}"
+        "left out everywhere: {names}{most}; solved with and without it at {checked} ({})",
+        counted(partial_of_sweep.solves, "run")
     )];
     let back: Vec<&str> = partial_of_sweep.put_back.iter().map(|own| own.effect.as_str()).collect();
     if !back.is_empty() {

@@ -169,7 +169,7 @@ pub(crate) fn is_table(word: &str) -> bool {
 
 /// The words after which a text is the name of a file of points: those of kinds that take points alone, and those
 /// of their parameters.
-fn words_of_points() -> HashSet<&'static str> {
+pub(crate) fn words_of_points() -> HashSet<&'static str> {
     let waveforms = WAVEFORMS.iter().map(|kind| (kind.word, kind.parameters));
     let elements = ELEMENTS.iter().map(|kind| (kind.word, kind.parameters));
     let composites = COMPOSITES.iter().map(|kind| (kind.word, kind.parameters));
