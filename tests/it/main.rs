@@ -65,6 +65,7 @@ mod power_laws;
 mod properties;
 mod random_networks;
 mod rating;
+mod resultants;
 mod scatter;
 mod scenes;
 mod shards;

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::{
     Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Measure, Motion, Offset,
-    Padding, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
+    Padding, Part, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
 };
 
 /// What is taken off a channel before anything else.
@@ -65,10 +65,12 @@ pub enum SettingsFault {
 /// A channel that was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
-    /// The channel as it was recorded.
+    /// The channel as it was recorded; of a resultant as it was read.
     pub raw: Channel,
     /// The same as it was read: without offset, filtered, cut.
     pub channel: Channel,
+    /// What it holds of what happens at its place.
+    pub part: Part,
     /// Steps of the record.
     pub steps: Steps,
     /// The reading at rest, where the record tells it.
@@ -146,11 +148,19 @@ impl Settings {
     ///
     /// [`SettingsFault`], where the channel does not allow what is asked for.
     pub fn analyse(&self, raw: Channel) -> Result<Analysis, SettingsFault> {
-        let steps = raw.steps();
-        let Treated { channel, offset, removed, floor } = self.treated(&raw)?;
+        let treated = self.treated(&raw)?;
+        let mut own = self.read(raw, treated, Part::Whole);
+        own.defects = defects(&own);
+        Ok(own)
+    }
+
+    /// Reads a channel that was treated, but for its defects.
+    pub(crate) fn read(&self, raw: Channel, treated: Treated, part: Part) -> Analysis {
+        let Treated { channel, offset, removed, floor } = treated;
         let reader = Reader::new(&channel, floor);
-        let mut readings: Vec<Reading> =
-            Measure::of(channel.dimension()).filter_map(|own| reader.read(own)).collect();
+        let is_read = |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
+        let measures = Measure::of(channel.dimension()).filter(is_read);
+        let mut readings: Vec<Reading> = measures.filter_map(|own| reader.read(own)).collect();
         let approach = self.approach.filter(|_| channel.dimension() == Dimension::ACCELERATION);
         let motion = approach.map(|own| reader.motion(own));
         for (motion, approach) in motion.iter().zip(approach) {
@@ -158,24 +168,22 @@ impl Settings {
         }
         let (polarity, contact) = (channel.polarity(), reader.contact());
         drop(reader);
-        let (settings, none) = (*self, Vec::new());
-        let mut own = Analysis {
+        Analysis {
+            steps: raw.steps(),
             raw,
             channel,
-            steps,
+            part,
             offset,
             removed,
-            settings,
+            settings: *self,
             polarity,
             contact,
             readings,
             motion,
             work: None,
             floor,
-            defects: none,
-        };
-        own.defects = defects(&own);
-        Ok(own)
+            defects: Vec::new(),
+        }
     }
 }
 

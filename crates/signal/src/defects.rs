@@ -59,6 +59,12 @@ pub enum Defect {
     OddPeak { peak: f64 },
     /// A length of a pulse that no impact test has: the unit of time may be another.
     OddLength { length: f64 },
+    /// An axis beside others that went through another filter class, so that they have no resultant.
+    OtherFilter,
+    /// An axis of which there are two channels, so that it is not clear which one is part of the resultant.
+    AxisTwice,
+    /// An axis whose times, or whose peak, are not within those of the others.
+    AxesApart,
 }
 
 impl Defect {
@@ -80,6 +86,9 @@ impl Defect {
             Self::OddClass { .. } => "odd-class",
             Self::OddPeak { .. } => "odd-peak",
             Self::OddLength { .. } => "odd-length",
+            Self::OtherFilter => "other-filter",
+            Self::AxisTwice => "axis-twice",
+            Self::AxesApart => "axes-apart",
         }
     }
 }
@@ -102,6 +111,15 @@ impl fmt::Display for Defect {
             | Self::SlowForClass { .. }
             | Self::OddClass { .. }
             | Self::OddLength { .. } => self.of_times(f),
+            Self::OtherFilter => f.write_str(
+                "went through another filter class than other axes of its location, and is no part of their resultant",
+            ),
+            Self::AxisTwice => f.write_str(
+                "is one of two channels of the same axis: no resultant is formed; `--channel` names one of each axis",
+            ),
+            Self::AxesApart => f.write_str(
+                "was not recorded at the times at which the other axes of its location were: no resultant is formed",
+            ),
         }
     }
 }

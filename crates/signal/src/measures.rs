@@ -160,6 +160,18 @@ impl Measure {
         matches!(self, Self::Hic | Self::Hic15 | Self::Hic36 | Self::SeverityIndex)
     }
 
+    /// Whether a magnitude has it, which has no direction to be added up along.
+    pub(crate) fn is_of_magnitudes(self) -> bool {
+        !matches!(self, Self::VelocityChange | Self::Impulse)
+    }
+
+    /// Whether that of a body is the one of the resultant of its axes, which no axis alone exceeds: peak, HIC, severity
+    /// index and clips of an acceleration.
+    pub fn is_of_body(self, channel: Dimension) -> bool {
+        let is_clip = matches!(self, Self::Peak | Self::Clip3ms | Self::Clip3msAtOnce);
+        channel == Dimension::ACCELERATION && (is_clip || self.is_index())
+    }
+
     fn cap(self) -> f64 {
         match self {
             Self::Hic15 => 0.015,

@@ -72,6 +72,11 @@ impl<'c> Sampling<'c> {
         self.steps(window).map(|at| self.hidden(at).area).sum()
     }
 
+    /// How far the signal may be off the line at most \[unit\].
+    pub(crate) fn height(&self) -> f64 {
+        (0..self.bends.len() - 1).map(|at| self.hidden(at).height.abs()).fold(0.0, f64::max)
+    }
+
     /// How much larger than its largest sample the magnitude of the signal may be \[unit\].
     pub fn overshoot(&self) -> f64 {
         let values = self.channel.values();

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::Args;
 use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
-use dashpot_signal::{Analysis, Approach, Cfc, Channel, Padding, Removal, Settings};
+use dashpot_signal::{Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Removal, Settings};
 use serde::Serialize;
 
 use self::{
@@ -82,6 +82,10 @@ pub(crate) struct SignalArguments {
     /// It falls: its weight acts along the blow.
     #[arg(long, requires = "velocity")]
     falls: bool,
+    /// The rig guides the body along this axis, or in the plane of two, as in `xz`: what those axes say is then all of its
+    /// motion. By default limits on the acceleration of a body are judged on the resultant of x, y and z.
+    #[arg(long, value_name = "AXES", value_parser = axes)]
+    guided: Option<Guided>,
     /// The displacement over which a force does its work, by the name or number of its column [default: the only
     /// one of the file].
     #[arg(long, value_name = "NAME")]
@@ -98,6 +102,17 @@ pub(crate) struct SignalArguments {
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
+}
+
+/// Axes along which a body may move.
+#[derive(Debug, Clone)]
+struct Guided(Vec<Axis>);
+
+fn axes(text: &str) -> Result<Guided, String> {
+    let found: Option<Vec<Axis>> = text.trim().chars().map(Axis::of).collect();
+    let found = found.filter(|own| (1..Axis::ALL.len()).contains(&own.len()));
+    let found = found.filter(|own| own.first() != own.get(1));
+    found.map(Guided).ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
 }
 
 fn frequency(text: &str) -> Result<f64, String> {
@@ -130,6 +145,8 @@ struct Signal {
 struct Signals {
     all: Vec<Signal>,
     limits: Vec<SignalLimit>,
+    /// Along which axes bodies may move.
+    guided: Vec<Axis>,
     notes: Vec<String>,
 }
 
@@ -189,8 +206,10 @@ pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<
         notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
         all.extend(signals(arguments, &record, &stem)?);
     }
-    let signals = Signals { all, limits, notes };
+    let guided = arguments.guided.as_ref().map_or(Axis::ALL.to_vec(), |own| own.0.clone());
+    let signals = Signals { all, limits, guided, notes };
     limits::known(&signals)?;
+    signals.guided_are_read()?;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(&signals))?;
     signals.notes.iter().for_each(|own| note(own));
     let is_kept = signals.verdicts().iter().all(Verdict::passes);
@@ -224,8 +243,9 @@ fn signals(
     });
     let displacement = displacement.transpose()?;
     let mut all = Vec::new();
-    for channel in &record.channels {
+    for (channel, place) in record.channels.iter().zip(&record.places) {
         let mut analysis = analyse(channel)?;
+        analysis.part = place.clone().map_or(Part::Whole, Part::Axis);
         if let Some(displacement) =
             displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
         {
@@ -238,9 +258,15 @@ fn signals(
                 ),
             })?;
         }
-        all.push(Signal { file: record.file.clone(), stem: stem.to_owned(), analysis });
+        all.push(analysis);
     }
-    Ok(all)
+    let resultants = Analysis::resultants(&mut all);
+    let signal = |analysis: Analysis| Signal {
+        file: record.file.clone(),
+        stem: stem.to_owned(),
+        analysis,
+    };
+    Ok(all.into_iter().chain(resultants).map(signal).collect())
 }
 
 /// The channels of one name in several files.
@@ -256,6 +282,16 @@ impl Group<'_> {
 }
 
 impl Signals {
+    /// Refuses to guide bodies along what no channel is an axis of.
+    fn guided_are_read(&self) -> Result<(), CliError> {
+        let is_read = |axis: &Axis| self.all.iter().any(|own| own.analysis.part.axes().contains(axis));
+        let missing = self.guided.iter().find(|own| self.guided.len() < 3 && !is_read(own));
+        missing.map_or(Ok(()), |axis| {
+            let reason = format!("no channel that is read is an axis {0} by its name, as `Head {0}`", axis.letter());
+            Err(CliError::WrongSetting { name: "--guided".to_owned(), reason })
+        })
+    }
+
     /// The channels of the same name, for each name in the order in which it comes.
     fn groups(&self) -> Vec<Group<'_>> {
         let mut groups: Vec<Group<'_>> = Vec::new();

@@ -5,7 +5,7 @@ use std::path::Path;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, LeftOut, TableError, table_text, units::parse_quantity};
 use dashpot_signal::{
-    Channel,
+    Channel, Place,
     iso_mme::{ChannelCode, MmeChannel},
 };
 
@@ -24,6 +24,8 @@ const OTHERS: [Dimension; 3] = [Dimension::VELOCITY, Dimension::LENGTH, Dimensio
 pub(super) struct Record {
     pub(super) file: String,
     pub(super) channels: Vec<Channel>,
+    /// Where each of them is, where it is one axis.
+    pub(super) places: Vec<Option<Place>>,
     /// The displacement over which forces do work, where it is asked for, or there is one alone.
     pub(super) displacement: Option<Channel>,
     /// Whether the file says when its samples are.
@@ -65,6 +67,7 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
     let reading = Reading { file: &file, table, units };
     let time = reading.time_column(rate.is_some())?;
     let columns = reading.channels(wanted.channels, time)?;
+    let places = columns.iter().map(|own| reading.place(*own, time)).collect();
     let mut channels = Vec::new();
     for (column, dimension) in columns {
         channels.push(reading.channel(time, rate, column, dimension)?);
@@ -75,7 +78,7 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
         .map(|column| reading.channel(time, rate, column, Dimension::LENGTH))
         .transpose()?;
     drop(reading);
-    Ok(Record { file, channels, displacement, has_times: time.is_some(), notes })
+    Ok(Record { file, channels, places, displacement, has_times: time.is_some(), notes })
 }
 
 /// The channels of a test in ISO-MME, by their names, codes or numbers.
@@ -114,8 +117,15 @@ fn of_test(file: &str, all: &[MmeChannel], wanted: &Wanted<'_>) -> Result<Record
             _ => None,
         },
     };
+    let place = |own: &&MmeChannel| {
+        let like = of(&[own.channel.dimension()]);
+        let names: Vec<_> = like.iter().map(|own| (own.channel.name(), own.code.as_ref())).collect();
+        let at = like.iter().position(|other| std::ptr::eq(*other, *own))?;
+        Place::of_channels(&names).swap_remove(at)
+    };
     Ok(Record {
         notes: notes.collect(),
+        places: chosen.iter().map(place).collect(),
         channels: chosen.iter().map(|own| own.channel.clone()).collect(),
         displacement,
         has_times: true,
@@ -138,6 +148,16 @@ impl Reading<'_, '_> {
             "" => (column + 1).to_string(),
             name => name.to_owned(),
         }
+    }
+
+    /// Where a channel is, by its name among those of the same quantity.
+    fn place(&self, (column, dimension): (usize, Dimension), time: Option<usize>) -> Option<Place> {
+        let columns = (0..self.table.columns()).filter(|at| Some(*at) != time);
+        let like: Vec<usize> = columns.filter(|at| self.is_of(*at, dimension)).collect();
+        let names: Vec<String> = like.iter().map(|at| self.name(*at)).collect();
+        let names: Vec<_> = names.iter().map(|own| (&**own, None)).collect();
+        let at = like.iter().position(|own| *own == column)?;
+        Place::of_channels(&names).swap_remove(at)
     }
 
     /// The unit of a column: that of the file, or the one given.
