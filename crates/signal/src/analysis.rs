@@ -25,6 +25,8 @@ pub enum Removal {
 pub struct Settings {
     /// What is taken off.
     pub offset: Removal,
+    /// Where it is at rest \[s\], as another axis of its location tells; by default its own pulse does.
+    pub rest: Option<(f64, f64)>,
     /// Whether its signs are turned.
     pub is_inverted: bool,
     /// The rate at which it is read off the line between its samples \[Hz\]; as it is by default.
@@ -115,7 +117,10 @@ impl Settings {
     ///
     /// [`SettingsFault`], where the channel does not allow what is asked for.
     pub fn treated(&self, raw: &Channel) -> Result<Treated, SettingsFault> {
-        let offset = Offset::before_pulse(raw);
+        let offset = match self.rest {
+            None => Offset::before_pulse(raw),
+            Some(window) => Offset::within(raw, window),
+        };
         let (removed, error) = match (self.offset, offset) {
             (Removal::Nothing, _) => (None, 0.0),
             (Removal::Given(value), _) => (Some(value), 0.0),
@@ -158,7 +163,8 @@ impl Settings {
     pub(crate) fn read(&self, raw: Channel, treated: Treated, part: Part) -> Analysis {
         let Treated { channel, offset, removed, floor } = treated;
         let reader = Reader::new(&channel, floor);
-        let is_read = |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
+        let is_read =
+            |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
         let measures = Measure::of(channel.dimension()).filter(is_read);
         let mut readings: Vec<Reading> = measures.filter_map(|own| reader.read(own)).collect();
         let approach = self.approach.filter(|_| channel.dimension() == Dimension::ACCELERATION);

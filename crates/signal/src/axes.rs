@@ -80,7 +80,7 @@ impl Place {
     }
 
     /// Whether both are at the same location and measure the same, each along its axis.
-    pub(crate) fn is_beside(&self, other: &Self) -> bool {
+    pub fn is_beside(&self, other: &Self) -> bool {
         self.key == other.key
     }
 
@@ -124,8 +124,7 @@ impl Place {
         let rest = rest.join(" ");
         let is_sure = is_symbol || symbol.is_empty() && is_named && tokens[at].len() == 1;
         let location = if is_named || kept > 0 { rest.clone() } else { String::new() };
-        let resultant =
-            [&*location, "resultant"].join(" ").trim_start_matches(is_apart).to_owned();
+        let resultant = [&*location, "resultant"].join(" ").trim_start_matches(is_apart).to_owned();
         let key = format!("{rest}\n{symbol}").to_lowercase();
         Some((Self { location, axis, resultant, key, class: None }, is_sure))
     }
@@ -188,7 +187,10 @@ mod tests {
             (["X-Axis", "Y-Axis", "Z-Axis"], ""),
             (["Kopf Beschl. X", "Kopf Beschl. Y", "Kopf Beschl. Z"], "Kopf Beschl"),
             (["X Accel", "Y Accel", "Z Accel"], "Accel"),
-            (["Head_Acc_X_filtered", "Head_Acc_Y_filtered", "Head_Acc_Z_filtered"], "Head_Acc filtered"),
+            (
+                ["Head_Acc_X_filtered", "Head_Acc_Y_filtered", "Head_Acc_Z_filtered"],
+                "Head_Acc filtered",
+            ),
             (["Head longitudinal", "Head lateral", "Head vertical"], "Head"),
             (["head1x", "head1y", "head1z"], "head1"),
             (["A17.x", "A17.y", "A17.z"], "A17"),

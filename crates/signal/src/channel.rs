@@ -12,6 +12,9 @@ const GAP: f64 = 1.5;
 /// Fewer different values tell no resolution; a coarse curve bends by as much at this share of its changes.
 const FEW_VALUES: usize = 5;
 const ROUGH: f64 = 0.1;
+/// How near to a multiple of a resolution steps are, and which part of them at least.
+const MULTIPLE: f64 = 0.1;
+const STEPPED: f64 = 0.8;
 /// Rounding of values, in parts of the largest.
 const NOISE: f64 = 1e-14;
 
@@ -170,19 +173,23 @@ impl Channel {
     }
 
     /// The resolution of its values: the smallest difference of two that are not the same, where the curve is as rough
-    /// as that; 0 where it is smoother, or has a few values alone, which tell nothing of a resolution.
+    /// as that and most differences are multiples of it; 0 where it is smoother, or has a few values alone, which tell
+    /// nothing of a resolution.
     pub fn resolution(&self) -> f64 {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);
         let rounding = NOISE * self.largest().1;
-        let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > rounding);
-        let (count, least) =
-            steps.fold((0, f64::INFINITY), |own, step| (own.0 + 1, own.1.min(step)));
+        let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+        let steps: Vec<f64> = steps.filter(|step| *step > rounding).collect();
+        let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_multiple = |step: &&f64| (*step / least - (*step / least).round()).abs() < MULTIPLE;
+        let multiples = steps.iter().filter(is_multiple).count();
         let bends = self.values.windows(3).map(|own| (own[2] - 2.0 * own[1] + own[0]).abs());
         let rough = bends.filter(|bend| *bend > 0.5 * least).count() as f64;
         let changes = self.values.windows(2).filter(|own| (own[1] - own[0]).abs() > rounding);
         let is_rough = rough > ROUGH * changes.count() as f64;
-        if count >= FEW_VALUES && is_rough { least } else { 0.0 }
+        let is_stepped = multiples as f64 > STEPPED * steps.len() as f64;
+        if steps.len() >= FEW_VALUES && is_rough && is_stepped { least } else { 0.0 }
     }
 
     /// The same with other values, as many as it has.

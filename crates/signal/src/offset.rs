@@ -59,6 +59,16 @@ impl Offset {
         (own.noise <= RESTLESS * peak).then_some(own)
     }
 
+    /// The same within a window \[s\] in which something else tells that nothing has begun; `None` of fewer than eight
+    /// samples.
+    pub fn within(channel: &Channel, window: (f64, f64)) -> Option<Self> {
+        let times = channel.times();
+        let from = times.partition_point(|time| *time < window.0);
+        let to = times.partition_point(|time| *time <= window.1);
+        let (times, values) = (times.get(from..to)?, channel.values().get(from..to)?);
+        (times.len() >= FEWEST).then(|| Self::of(times, values, channel.resolution()))
+    }
+
     fn of(times: &[f64], values: &[f64], resolution: f64) -> Self {
         let count = values.len();
         let value = mean(values);

@@ -52,7 +52,8 @@ impl Analysis {
     pub fn resultants(all: &mut [Self]) -> Vec<Self> {
         let (mut resultants, mut found) = (Vec::new(), Vec::new());
         for at in 0..all.len() {
-            let beside: Vec<usize> = (0..all.len()).filter(|own| all[at].is_beside(&all[*own])).collect();
+            let beside: Vec<usize> =
+                (0..all.len()).filter(|own| all[at].is_beside(&all[*own])).collect();
             let class = |own: usize| all[own].part.place().and_then(|own| own.class);
             let alike: Vec<usize> =
                 beside.iter().copied().filter(|own| class(*own) == class(at)).collect();
@@ -99,9 +100,8 @@ impl Analysis {
         let common = |one: (f64, f64), other: (f64, f64)| (one.0.max(other.0), one.1.min(other.1));
         let (from, to) = spans.fold((f64::NEG_INFINITY, f64::INFINITY), common);
         let is_inside = |time: &f64| (from..=to).contains(time);
-        let has_peak = |own: &&Self| {
-            own.channel.times().get(own.channel.largest().0).is_some_and(is_inside)
-        };
+        let has_peak =
+            |own: &&Self| own.channel.times().get(own.channel.largest().0).is_some_and(is_inside);
         let Some(finest) = axes.iter().max_by_key(|own| own.channel.times().len()) else {
             return Err(Defect::AxesApart);
         };
@@ -117,7 +117,8 @@ impl Analysis {
         }));
         let values =
             times.iter().map(|time| norm(&mut axes.iter().map(|own| own.channel.value(*time))));
-        let channel = Channel::new(name, finest.channel.dimension(), times.clone(), values.collect());
+        let channel =
+            Channel::new(name, finest.channel.dimension(), times.clone(), values.collect());
         let channel = channel.map_err(|_| Defect::AxesApart)?;
         let of = axes.iter().flat_map(|own| {
             own.part.axes().into_iter().map(|axis| (axis, own.channel.name().to_owned()))

@@ -69,9 +69,7 @@ impl<'s> Verdict<'s> {
         let grows = is_part || is_clipped || is_cut;
         let judgement = limit.limit.bound.judge(value.unwrap_or(f64::NAN), Some(error), grows);
         let judgement = match judgement {
-            Judgement::Undecided(Reason::Cut) if is_part => {
-                Judgement::Undecided(Reason::OtherAxes)
-            }
+            Judgement::Undecided(Reason::Cut) if is_part => Judgement::Undecided(Reason::OtherAxes),
             Judgement::Undecided(Reason::Cut) if is_clipped => {
                 Judgement::Undecided(Reason::Clipped)
             }

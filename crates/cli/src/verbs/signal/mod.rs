@@ -112,7 +112,9 @@ fn axes(text: &str) -> Result<Guided, String> {
     let found: Option<Vec<Axis>> = text.trim().chars().map(Axis::of).collect();
     let found = found.filter(|own| (1..Axis::ALL.len()).contains(&own.len()));
     let found = found.filter(|own| own.first() != own.get(1));
-    found.map(Guided).ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
+    found
+        .map(Guided)
+        .ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
 }
 
 fn frequency(text: &str) -> Result<f64, String> {
@@ -173,6 +175,7 @@ impl SignalArguments {
         let padding = Padding::ALL.into_iter().find(|own| own.word() == self.padding);
         Ok(Settings {
             offset,
+            rest: None,
             is_inverted: self.invert,
             rate: self.rate.filter(|_| record.has_times),
             cfc: self.cfc,
@@ -223,8 +226,9 @@ fn signals(
     record: &Record,
     stem: &str,
 ) -> Result<Vec<Signal>, CliError> {
-    let analyse = |channel: &Channel| {
+    let analyse = |at: usize, channel: &Channel| {
         let settings = arguments.settings(record, channel.dimension())?;
+        let settings = Settings { rest: record.rest_beside(at), ..settings };
         settings.analyse(channel.clone()).map_err(|fault| CliError::Signal {
             file: record.file.clone(),
             channel: channel.name().to_owned(),
@@ -243,8 +247,8 @@ fn signals(
     });
     let displacement = displacement.transpose()?;
     let mut all = Vec::new();
-    for (channel, place) in record.channels.iter().zip(&record.places) {
-        let mut analysis = analyse(channel)?;
+    for (at, (channel, place)) in record.channels.iter().zip(&record.places).enumerate() {
+        let mut analysis = analyse(at, channel)?;
         analysis.part = place.clone().map_or(Part::Whole, Part::Axis);
         if let Some(displacement) =
             displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
@@ -261,11 +265,8 @@ fn signals(
         all.push(analysis);
     }
     let resultants = Analysis::resultants(&mut all);
-    let signal = |analysis: Analysis| Signal {
-        file: record.file.clone(),
-        stem: stem.to_owned(),
-        analysis,
-    };
+    let signal =
+        |analysis: Analysis| Signal { file: record.file.clone(), stem: stem.to_owned(), analysis };
     Ok(all.into_iter().chain(resultants).map(signal).collect())
 }
 
@@ -284,10 +285,14 @@ impl Group<'_> {
 impl Signals {
     /// Refuses to guide bodies along what no channel is an axis of.
     fn guided_are_read(&self) -> Result<(), CliError> {
-        let is_read = |axis: &Axis| self.all.iter().any(|own| own.analysis.part.axes().contains(axis));
+        let is_read =
+            |axis: &Axis| self.all.iter().any(|own| own.analysis.part.axes().contains(axis));
         let missing = self.guided.iter().find(|own| self.guided.len() < 3 && !is_read(own));
         missing.map_or(Ok(()), |axis| {
-            let reason = format!("no channel that is read is an axis {0} by its name, as `Head {0}`", axis.letter());
+            let reason = format!(
+                "no channel that is read is an axis {0} by its name, as `Head {0}`",
+                axis.letter()
+            );
             Err(CliError::WrongSetting { name: "--guided".to_owned(), reason })
         })
     }

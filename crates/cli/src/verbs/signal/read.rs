@@ -5,7 +5,7 @@ use std::path::Path;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, LeftOut, TableError, table_text, units::parse_quantity};
 use dashpot_signal::{
-    Channel, Place,
+    Channel, Offset, Place,
     iso_mme::{ChannelCode, MmeChannel},
 };
 
@@ -31,6 +31,21 @@ pub(super) struct Record {
     /// Whether the file says when its samples are.
     pub(super) has_times: bool,
     pub(super) notes: Vec<String>,
+}
+
+impl Record {
+    /// When an axis is at rest \[s\]: before the pulse of that one of its location with the highest peak. One across the blow
+    /// has no pulse that tells it.
+    pub(super) fn rest_beside(&self, at: usize) -> Option<(f64, f64)> {
+        let place = self.places.get(at)?.as_ref()?;
+        let is_beside = |own: &(&Channel, &Option<Place>)| {
+            own.1.as_ref().is_some_and(|own| own.is_beside(place))
+        };
+        let axes = self.channels.iter().zip(&self.places).filter(is_beside);
+        let height = |own: &Channel| own.largest().1;
+        let highest = axes.max_by(|one, other| height(one.0).total_cmp(&height(other.0)))?;
+        Some(Offset::before_pulse(highest.0)?.window)
+    }
 }
 
 /// What is wanted of a file.
@@ -119,7 +134,8 @@ fn of_test(file: &str, all: &[MmeChannel], wanted: &Wanted<'_>) -> Result<Record
     };
     let place = |own: &&MmeChannel| {
         let like = of(&[own.channel.dimension()]);
-        let names: Vec<_> = like.iter().map(|own| (own.channel.name(), own.code.as_ref())).collect();
+        let names: Vec<_> =
+            like.iter().map(|own| (own.channel.name(), own.code.as_ref())).collect();
         let at = like.iter().position(|other| std::ptr::eq(*other, *own))?;
         Place::of_channels(&names).swap_remove(at)
     };
