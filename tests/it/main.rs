@@ -70,6 +70,8 @@ mod scatter;
 mod scenes;
 mod shards;
 mod signal;
+mod signal_bars;
+mod signal_options;
 mod signs;
 mod similarity;
 mod sizes;

@@ -15,6 +15,8 @@ const ROUGH: f64 = 0.1;
 /// How near to a multiple of a resolution steps are, and which part of them at least.
 const MULTIPLE: f64 = 0.1;
 const STEPPED: f64 = 0.8;
+/// A record is read at so many times at most, or at as many as it has.
+const MOST_SAMPLES: usize = 1_000_000;
 /// Rounding of values, in parts of the largest.
 const NOISE: f64 = 1e-14;
 
@@ -41,6 +43,9 @@ pub enum ChannelFault {
     /// A time or value that is no finite number.
     #[error("a sample is not a finite number")]
     NotFinite { at: usize },
+    /// A rate at which there are more samples than are read.
+    #[error("at this rate it has {count:.3e} samples, and at most {most} are read")]
+    TooMany { count: f64, most: usize },
     /// A time that is not behind the one before.
     #[error("the time {time} s stands after {before} s: the time of samples rises")]
     TimeBack { at: usize, time: f64, before: f64 },
@@ -51,7 +56,7 @@ impl ChannelFault {
     pub fn sample(&self) -> Option<usize> {
         match self {
             Self::NotFinite { at } | Self::TimeBack { at, .. } => Some(*at),
-            Self::TooFew { .. } | Self::Uneven { .. } => None,
+            Self::TooFew { .. } | Self::Uneven { .. } | Self::TooMany { .. } => None,
         }
     }
 }
@@ -84,6 +89,14 @@ impl Polarity {
         match self {
             Self::Positive => "positive",
             Self::Negative => "negative",
+        }
+    }
+
+    /// 1 or −1.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
         }
     }
 }
@@ -205,6 +218,11 @@ impl Channel {
         self.with_values(self.values.iter().copied().map(change).collect())
     }
 
+    /// The same over a divisor, as another quantity: of a force over a mass the acceleration.
+    pub(crate) fn over(&self, divisor: f64, dimension: Dimension) -> Self {
+        Self { dimension, ..self.map(|own| own / divisor) }
+    }
+
     /// The value at a time \[s\], on the line between samples; beyond the ends that of the end.
     pub fn value(&self, time: f64) -> f64 {
         let after = self.times.partition_point(|own| *own <= time).clamp(1, self.times.len() - 1);
@@ -234,10 +252,14 @@ impl Channel {
     ///
     /// # Errors
     ///
-    /// A rate at which it has fewer than two samples.
+    /// A rate at which it has fewer than two samples, or more than 10⁶ and more than it has.
     pub fn resampled(&self, rate: f64) -> Result<Self, ChannelFault> {
         let (start, end) = self.span();
         let count = ((end - start) * rate * (1.0 + 1e-12)).floor();
+        let most = MOST_SAMPLES.max(self.times.len());
+        if count >= most as f64 {
+            return Err(ChannelFault::TooMany { count, most });
+        }
         let mut times = Vec::new();
         let mut at = 0.0;
         while at <= count {

@@ -11,6 +11,7 @@
 
 mod analysis;
 mod axes;
+mod blow;
 mod cfc;
 mod channel;
 mod contact;
@@ -19,6 +20,7 @@ mod hic;
 pub mod iso_mme;
 mod measures;
 mod motion;
+mod noise;
 mod offset;
 mod rating;
 mod recorder;
@@ -30,12 +32,14 @@ mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
 pub use axes::{Axis, Place};
+pub use blow::Blow;
 pub use cfc::{Cfc, CfcFault, Padding};
 pub use channel::{Channel, ChannelFault, Polarity, Steps};
 pub use contact::{CONTACT_LEVEL, Contact};
 pub use defects::Defect;
 pub use measures::{Measure, Reading, Reason};
 pub use motion::{Approach, Motion};
+pub use noise::{Doubt, Noise};
 pub use offset::Offset;
 pub use rating::{Grade, Rating, Unrated};
 pub use recorder::Recorder;

@@ -20,6 +20,8 @@ pub struct Offset {
     /// How far the reading at rest during the pulse may be from it: twice the standard error of the mean of blocks,
     /// the change from the first to the second half, and half of the resolution where no noise blurs it.
     pub error: f64,
+    /// Standard error of the mean, by the scatter of the means of eight blocks.
+    pub standard_error: f64,
     /// From when to when the mean is taken \[s\].
     pub window: (f64, f64),
     /// Samples in it.
@@ -84,6 +86,7 @@ impl Offset {
         let coarse = if noise < resolution { 0.5 * resolution } else { 0.0 };
         Self {
             value,
+            standard_error: standard,
             error: 2.0 * standard + change.abs() + coarse,
             window: (times[0], times[count - 1]),
             samples: count,

@@ -1,7 +1,8 @@
 //! The magnitude of what several axes of one location measure.
 
 use crate::{
-    Analysis, Axis, Channel, Defect, Place, analysis::Treated, defects::defects, sampling::Sampling,
+    Analysis, Axis, Channel, Defect, Noise, Place, analysis::Treated, defects::defects,
+    sampling::Sampling,
 };
 
 /// What a channel holds of what happens at its place.
@@ -90,7 +91,7 @@ impl Analysis {
     }
 
     /// That of some axes, at the times of the one with the most samples, over what they have in common. How far it may
-    /// be off is the root of the sum of squares of what they may be, with what lines between other times hide.
+    /// be off is the root of the sum of squares of what they may be, with what lines between other times hide; its noise is the largest of them.
     fn resultant(name: String, location: &str, mut axes: Vec<&Self>) -> Result<Self, Defect> {
         axes.sort_by_key(|own| own.part.axes());
         if axes.windows(2).any(|own| own[0].part.axes() == own[1].part.axes()) {
@@ -113,8 +114,15 @@ impl Analysis {
         let is_sampled = |own: &Self| own.channel.times() == finest.channel.times();
         let floor = norm(&mut axes.iter().map(|own| {
             let hidden = if is_sampled(own) { 0.0 } else { Sampling::of(&own.channel).height() };
-            own.floor + hidden
+            own.doubt.floor + hidden
         }));
+        let most =
+            |of: fn(&Noise) -> f64| axes.iter().map(|own| of(&own.doubt.noise)).fold(0.0, f64::max);
+        let noise = Noise {
+            deviation: most(|own| own.deviation),
+            intensity: most(|own| own.intensity),
+            is_of_rest: axes.iter().all(|own| own.doubt.noise.is_of_rest),
+        };
         let values =
             times.iter().map(|time| norm(&mut axes.iter().map(|own| own.channel.value(*time))));
         let channel =
@@ -125,8 +133,12 @@ impl Analysis {
         });
         let part = Part::Resultant { location: location.to_owned(), of: of.collect() };
         let settings = crate::Settings { approach: None, ..finest.settings };
-        let treated = Treated { channel: channel.clone(), offset: None, removed: None, floor };
-        let mut own = settings.read(channel, treated, part);
+        // Noise across the vector makes it longer, by half of its variance over the length.
+        let longer = axes.len() as f64 * noise.deviation.powi(2) / channel.largest().1;
+        let floor = floor + if longer.is_finite() { longer } else { 0.0 };
+        let raw = channel.clone();
+        let treated = Treated { channel, offset: None, removed: None, floor, rest: 0.0 };
+        let mut own = settings.read(raw, treated, noise, part);
         own.defects = defects(&own);
         let clipped = axes.iter().flat_map(|own| &own.defects);
         own.defects.extend(clipped.filter(|own| matches!(own, Defect::Clipped { .. })));

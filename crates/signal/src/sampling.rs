@@ -91,12 +91,17 @@ impl<'c> Sampling<'c> {
         (0..values.len() - 1).map(above).fold(0.0, f64::max)
     }
 
-    /// How far the time at which the magnitude passes a level may be off, added up over all steps in a window in
-    /// which it passes \[s\].
-    pub(crate) fn passages(&self, level: f64, window: (f64, f64)) -> f64 {
+    /// How far the time at which what is made of the values passes a level may be off, added up over all steps in a
+    /// window in which it passes \[s\].
+    pub(crate) fn passages(
+        &self,
+        level: f64,
+        window: (f64, f64),
+        made: impl Fn(f64) -> f64,
+    ) -> f64 {
         let (times, values) = (self.channel.times(), self.channel.values());
         let shift = |at: usize| {
-            let [one, other] = [values[at].abs(), values[at + 1].abs()];
+            let [one, other] = [made(values[at]), made(values[at + 1])];
             let step = times[at + 1] - times[at];
             if (one < level) == (other < level) {
                 return 0.0;

@@ -13,7 +13,9 @@ use std::path::PathBuf;
 use clap::Args;
 use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
-use dashpot_signal::{Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Removal, Settings};
+use dashpot_signal::{
+    Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Place, Removal, Settings,
+};
 use serde::Serialize;
 
 use self::{
@@ -64,7 +66,7 @@ pub(crate) struct SignalArguments {
     #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
     cfc: Option<Cfc>,
     /// What stands beyond the ends of the record for the filter.
-    #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
+    #[arg(long, value_name = "MODE", default_value = "odd", requires = "cfc", value_parser = paddings())]
     padding: String,
     /// Reads the record from this time on, behind the filter.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
@@ -72,13 +74,17 @@ pub(crate) struct SignalArguments {
     /// Reads it up to this time.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     to: Option<f64>,
-    /// Speed of approach of the body that an accelerometer is on, at the beginning of the record: gives its displacement,
-    /// its rebound and the coefficient of restitution.
+    /// Speed of approach of the body that an accelerometer is on when its contact begins: gives its displacement, its
+    /// rebound and the coefficient of restitution. Before, it flies freely. A force needs `--mass` as well: that of a free
+    /// striker.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
     velocity: Option<f64>,
     /// Its mass: gives energy taken, returned and absorbed.
     #[arg(long, value_name = "MASS", value_parser = mass, requires = "velocity")]
     mass: Option<f64>,
+    /// When its contact begins [default: where the record leaves what it reads at rest].
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "velocity", value_parser = shift)]
+    touch: Option<f64>,
     /// It falls: its weight acts along the blow.
     #[arg(long, requires = "velocity")]
     falls: bool,
@@ -164,6 +170,57 @@ impl<'a> From<&'a SignalArguments> for Wanted<'a> {
 }
 
 impl SignalArguments {
+    /// Refuses what says something of a channel that the record does not have.
+    fn apply_to(&self, record: &Record) -> Result<(), CliError> {
+        let wrong = |name: &str, reason: String| {
+            let reason = format!("`{}`: {reason}", record.file);
+            Err(CliError::WrongSetting { name: name.to_owned(), reason })
+        };
+        let is_of = |of: Dimension| record.channels.iter().any(|own| own.dimension() == of);
+        if self.displacement.is_some() && !is_of(Dimension::FORCE) {
+            return wrong(
+                "--displacement",
+                "no channel that is read is a force, which alone does work over one".to_owned(),
+            );
+        }
+        let mut all = 0..record.channels.len();
+        if self.velocity.is_none() || all.any(|at| self.moves(record, at)) {
+            return Ok(());
+        }
+        let reason = if is_of(Dimension::ACCELERATION) {
+            let names: Vec<&str> = record.channels.iter().map(Channel::name).collect();
+            format!(
+                "it has one direction, and {} are axes of one body: `--guided z` says which of them is along the blow, or \
+                 `--channel` names it",
+                names.join(", ")
+            )
+        } else if is_of(Dimension::FORCE) {
+            "a force moves what has a mass: say it, `--mass \"5 kg\"`, where it acts on a free striker".to_owned()
+        } else {
+            "no channel that is read is an acceleration or a force, which alone tell a motion"
+                .to_owned()
+        };
+        wrong("--velocity", reason)
+    }
+
+    /// Whether a channel tells the motion of a body that comes with `--velocity`: an acceleration, or a force on a known
+    /// mass; of several axes of one location the one along which the body is guided.
+    fn moves(&self, record: &Record, at: usize) -> bool {
+        let is_guided = |place: &Place| {
+            let is_other = |own: &Place| own.is_beside(place) && own.axis != place.axis;
+            match &self.guided {
+                Some(guided) => guided.0 == [place.axis],
+                None => !record.places.iter().flatten().any(is_other),
+            }
+        };
+        let along = record.places[at].as_ref().is_none_or(is_guided);
+        along
+            && match record.channels[at].dimension() {
+                Dimension::FORCE => self.mass.is_some(),
+                dimension => dimension == Dimension::ACCELERATION,
+            }
+    }
+
     fn settings(&self, record: &Record, dimension: Dimension) -> Result<Settings, CliError> {
         let offset = match self.offset.as_deref().map(str::trim) {
             None => Removal::Nothing,
@@ -186,6 +243,7 @@ impl SignalArguments {
                 velocity,
                 mass: self.mass,
                 gravity: if self.falls { STANDARD_GRAVITY } else { 0.0 },
+                touch: self.touch,
             }),
         })
     }
@@ -226,9 +284,11 @@ fn signals(
     record: &Record,
     stem: &str,
 ) -> Result<Vec<Signal>, CliError> {
+    arguments.apply_to(record)?;
     let analyse = |at: usize, channel: &Channel| {
         let settings = arguments.settings(record, channel.dimension())?;
-        let settings = Settings { rest: record.rest_beside(at), ..settings };
+        let approach = settings.approach.filter(|_| arguments.moves(record, at));
+        let settings = Settings { approach, rest: record.rest_beside(at), ..settings };
         settings.analyse(channel.clone()).map_err(|fault| CliError::Signal {
             file: record.file.clone(),
             channel: channel.name().to_owned(),
@@ -238,7 +298,7 @@ fn signals(
     let displacement = record.displacement.as_ref().map(|own| {
         // It has an offset and a sign of its own.
         let settings = arguments.settings(record, own.dimension())?;
-        let settings = Settings { offset: Removal::Nothing, ..settings };
+        let settings = Settings { offset: Removal::Nothing, approach: None, ..settings };
         settings.analyse(own.clone()).map_err(|fault| CliError::Signal {
             file: record.file.clone(),
             channel: own.name().to_owned(),

@@ -61,6 +61,11 @@ fn channel(signal: &Signal) -> impl Serialize {
             noise: offset.noise,
             drift: offset.drift,
         }),
+        noise: object! {
+            deviation: own.doubt.noise.deviation,
+            intensity: own.doubt.noise.intensity,
+            at_rest: own.doubt.noise.is_of_rest,
+        },
         removed: own.removed,
         removal: match settings.offset {
             Removal::Nothing => "nothing",

@@ -71,6 +71,9 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
     let Wanted { units, rate, .. } = *wanted;
     let file = path.to_string_lossy().into_owned();
     if mme::is_one(path) {
+        if !units.is_empty() {
+            return Err(no_units(&file));
+        }
         return of_test(&file, &mme::read(path)?, wanted);
     }
     let unreadable = |reason: String| CliError::SignalFile { file: file.clone(), reason };
@@ -80,6 +83,7 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
     let table = DataTable::read(&text).map_err(|fault| in_table(&file, fault))?;
     let notes = LeftOut::of(&table).map(|own| own.to_string()).into_iter().collect();
     let reading = Reading { file: &file, table, units };
+    reading.units_are_wanted()?;
     let time = reading.time_column(rate.is_some())?;
     let columns = reading.channels(wanted.channels, time)?;
     let places = columns.iter().map(|own| reading.place(*own, time)).collect();
@@ -149,6 +153,12 @@ fn of_test(file: &str, all: &[MmeChannel], wanted: &Wanted<'_>) -> Result<Record
     })
 }
 
+/// `--units` of a file that says them all.
+fn no_units(file: &str) -> CliError {
+    let reason = format!("`{file}` says the units of all its channels");
+    CliError::WrongSetting { name: "--units".to_owned(), reason }
+}
+
 fn in_table(file: &str, fault: TableError) -> CliError {
     CliError::MeasuredTable { file: file.to_owned(), fault: Box::new(fault) }
 }
@@ -174,6 +184,32 @@ impl Reading<'_, '_> {
         let names: Vec<_> = names.iter().map(|own| (&**own, None)).collect();
         let at = like.iter().position(|own| *own == column)?;
         Place::of_channels(&names).swap_remove(at)
+    }
+
+    /// Refuses units of columns that say another one, or that are not there, and of a file that says them all.
+    fn units_are_wanted(&self) -> Result<(), CliError> {
+        let said = |at: usize| (at < self.table.columns()).then(|| self.table.heading(at).unit);
+        let given = self.units.iter().map(|own| own.trim()).enumerate();
+        for (at, given) in given.filter(|own| !own.1.is_empty()) {
+            let reason = match said(at) {
+                None => format!(
+                    "`{given}` is for column {}, and there are {}",
+                    at + 1,
+                    self.table.columns()
+                ),
+                Some(Some(unit)) if unit != given => {
+                    format!(
+                        "the file says `{unit}` of `{}`, not `{given}`: leave its place empty",
+                        self.name(at)
+                    )
+                }
+                Some(_) => continue,
+            };
+            let reason = format!("`{}`: {reason}", self.file);
+            return Err(CliError::WrongSetting { name: "--units".to_owned(), reason });
+        }
+        let is_known = (0..self.table.columns()).all(|at| self.table.heading(at).unit.is_some());
+        if is_known && !self.units.is_empty() { Err(no_units(self.file)) } else { Ok(()) }
     }
 
     /// The unit of a column: that of the file, or the one given.

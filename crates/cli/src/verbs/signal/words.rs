@@ -14,6 +14,8 @@ use crate::{
 
 /// Digits of times and rates.
 const DIGITS: usize = 4;
+/// Noise below this part of the peak is not mentioned.
+const UNSEEN: f64 = 1e-5;
 /// Digits of errors.
 const ERROR_DIGITS: usize = 1;
 
@@ -147,7 +149,12 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
     };
     let turned = if own.settings.is_inverted { ", after its signs were turned" } else { "" };
     let polarity = format!("its peak is {}{turned}", own.polarity.word());
-    vec![filter, offset, polarity, contact]
+    let noise = own.doubt.noise;
+    let from = if noise.is_of_rest { "at rest" } else { "of its fourth differences" };
+    let deviation = value(noise.deviation, 2);
+    let noise = (noise.deviation > UNSEEN * own.channel.largest().1)
+        .then(|| format!("noise of {deviation} ({from}), which is part of every error"));
+    [filter, offset].into_iter().chain(noise).chain([polarity, contact]).collect()
 }
 
 /// All that was read off a channel.
