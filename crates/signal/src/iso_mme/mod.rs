@@ -78,7 +78,7 @@ pub enum MmeFault {
     #[error("its times are those of channel `{name}`, which is not here")]
     NoReference { name: String },
     /// More samples than are read of one test.
-    #[error("up to here the test has more than {MOST_SAMPLES} samples, which is the limit")]
+    #[error("up to here the test has more than {} samples, which is the limit", MOST_SAMPLES)]
     TooMany,
     /// Samples that are no signal.
     #[error("{0}")]
