@@ -221,31 +221,32 @@ impl SignalArguments {
             }
     }
 
-    fn settings(&self, record: &Record, dimension: Dimension) -> Result<Settings, CliError> {
-        let offset = match self.offset.as_deref().map(str::trim) {
+    fn removal(&self, dimension: Dimension) -> Result<Removal, CliError> {
+        Ok(match self.offset.as_deref().map(str::trim) {
             None => Removal::Nothing,
             Some("auto") => Removal::Found,
             Some(text) => Removal::Given(setting("--offset", text, dimension)?),
-        };
+        })
+    }
+
+    fn settings(&self, record: &Record) -> Settings {
         let window = (self.from.is_some() || self.to.is_some())
             .then(|| (self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)));
         let padding = Padding::ALL.into_iter().find(|own| own.word() == self.padding);
-        Ok(Settings {
-            offset,
-            rest: None,
+        Settings {
             is_inverted: self.invert,
             rate: self.rate.filter(|_| record.has_times),
             cfc: self.cfc,
             padding: padding.unwrap_or_default(),
             window,
-            error: 0.0,
             approach: self.velocity.map(|velocity| Approach {
                 velocity,
                 mass: self.mass,
                 gravity: if self.falls { STANDARD_GRAVITY } else { 0.0 },
                 touch: self.touch,
             }),
-        })
+            ..Settings::default()
+        }
     }
 }
 
@@ -285,30 +286,23 @@ fn signals(
     stem: &str,
 ) -> Result<Vec<Signal>, CliError> {
     arguments.apply_to(record)?;
-    let analyse = |at: usize, channel: &Channel| {
-        let settings = arguments.settings(record, channel.dimension())?;
-        let approach = settings.approach.filter(|_| arguments.moves(record, at));
-        let settings = Settings { approach, rest: record.rest_beside(at), ..settings };
+    let settings = arguments.settings(record);
+    let analyse = |settings: Settings, channel: &Channel| {
         settings.analyse(channel.clone()).map_err(|fault| CliError::Signal {
             file: record.file.clone(),
             channel: channel.name().to_owned(),
             fault: Box::new(fault),
         })
     };
-    let displacement = record.displacement.as_ref().map(|own| {
-        // It has an offset and a sign of its own.
-        let settings = arguments.settings(record, own.dimension())?;
-        let settings = Settings { offset: Removal::Nothing, approach: None, ..settings };
-        settings.analyse(own.clone()).map_err(|fault| CliError::Signal {
-            file: record.file.clone(),
-            channel: own.name().to_owned(),
-            fault: Box::new(fault),
-        })
-    });
-    let displacement = displacement.transpose()?;
+    // It has an offset and a sign of its own.
+    let still = Settings { approach: None, ..settings };
+    let displacement = record.displacement.as_ref().map(|own| analyse(still, own)).transpose()?;
     let mut all = Vec::new();
     for (at, (channel, place)) in record.channels.iter().zip(&record.places).enumerate() {
-        let mut analysis = analyse(at, channel)?;
+        let approach = settings.approach.filter(|_| arguments.moves(record, at));
+        let offset = arguments.removal(channel.dimension())?;
+        let rest = record.rest_beside(at);
+        let mut analysis = analyse(Settings { approach, offset, rest, ..settings }, channel)?;
         analysis.part = place.clone().map_or(Part::Whole, Part::Axis);
         if let Some(displacement) =
             displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
