@@ -297,7 +297,8 @@ fn what_is_written_is_read_again_and_says_the_same() {
     let [taken, absorbed] = ["acc.energy-taken", "acc.energy-absorbed"].map(|own| &measures[own]);
     let end = 5.0 - change;
     let error = number(&taken["error"]);
-    assert!((number(&taken["value"]) - 50.0).abs() < error && error < 0.5, "{taken}");
+    // It is what it brings along: the speed is stated at the touch, and at the deepest point there is none.
+    assert!((number(&taken["value"]) - 50.0).abs() <= error + 1e-9 && error < 0.5, "{taken}");
     let lost = 0.5 * 4.0 * (25.0 - end * end);
     assert!((number(&absorbed["value"]) - lost).abs() < 1e-2 * lost, "{absorbed}, not {lost}");
 }

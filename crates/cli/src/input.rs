@@ -143,7 +143,8 @@ pub(crate) fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
     if !found.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, NO_FILE));
     }
-    limited(File::open(path)?)
+    // What has no length holds nothing, or is made while it is read, and may be without end.
+    if found.len() == 0 { Ok(Vec::new()) } else { limited(File::open(path)?) }
 }
 
 fn limited(reader: impl Read) -> io::Result<Vec<u8>> {

@@ -4,8 +4,8 @@ use dashpot_units::Dimension;
 use thiserror::Error;
 
 use crate::{
-    Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Measure, Motion, Offset,
-    Padding, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
+    Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Doubt, Measure, Motion, Noise,
+    Offset, Padding, Part, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
 };
 
 /// What is taken off a channel before anything else.
@@ -25,6 +25,8 @@ pub enum Removal {
 pub struct Settings {
     /// What is taken off.
     pub offset: Removal,
+    /// Where it is at rest \[s\], as another axis of its location tells; by default its own pulse does.
+    pub rest: Option<(f64, f64)>,
     /// Whether its signs are turned.
     pub is_inverted: bool,
     /// The rate at which it is read off the line between its samples \[Hz\]; as it is by default.
@@ -57,6 +59,12 @@ pub enum SettingsFault {
     /// A filter that does not fit.
     #[error(transparent)]
     Cfc(#[from] CfcFault),
+    /// A rate at which there are too many samples.
+    #[error(transparent)]
+    Rate(ChannelFault),
+    /// A touch that the record does not hold.
+    #[error("the contact is to begin at {touch} s, and the record is from {} to {} s", .span.0, .span.1)]
+    NoTouch { touch: f64, span: (f64, f64) },
     /// A window or rate that leaves no signal.
     #[error("nothing is left of it in the window, or at the rate, that is asked for")]
     NothingLeft(#[source] ChannelFault),
@@ -65,10 +73,12 @@ pub enum SettingsFault {
 /// A channel that was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
-    /// The channel as it was recorded.
+    /// The channel as it was recorded; of a resultant as it was read.
     pub raw: Channel,
     /// The same as it was read: without offset, filtered, cut.
     pub channel: Channel,
+    /// What it holds of what happens at its place.
+    pub part: Part,
     /// Steps of the record.
     pub steps: Steps,
     /// The reading at rest, where the record tells it.
@@ -83,12 +93,13 @@ pub struct Analysis {
     pub contact: Contact,
     /// Its numbers.
     pub readings: Vec<Reading>,
-    /// The motion of the body that it is on, where that is wanted and it is an acceleration.
+    /// The motion of the body that it is on, where that is wanted and it is an acceleration, or a force and the mass is
+    /// known.
     pub motion: Option<Motion>,
     /// The work of a force, where there is a displacement.
     pub work: Option<Work>,
-    /// How far every sample may be off in the same direction, by the offset, the resolution, and what else is stated.
-    pub floor: f64,
+    /// How far its samples may be off.
+    pub doubt: Doubt,
     /// What is wrong with it.
     pub defects: Vec<Defect>,
 }
@@ -102,8 +113,11 @@ pub struct Treated {
     pub offset: Option<Offset>,
     /// What was taken off, in SI units.
     pub removed: Option<f64>,
-    /// How far every sample may be off in the same direction.
+    /// How far every sample may be off in the same direction: by the error of the offset that was taken off, or all of the
+    /// reading at rest that was not, of an acceleration or a force; by half a resolution; by what else is stated.
     pub floor: f64,
+    /// What it reads at rest; 0 where that is not known.
+    pub rest: f64,
 }
 
 impl Settings {
@@ -113,18 +127,29 @@ impl Settings {
     ///
     /// [`SettingsFault`], where the channel does not allow what is asked for.
     pub fn treated(&self, raw: &Channel) -> Result<Treated, SettingsFault> {
-        let offset = Offset::before_pulse(raw);
-        let (removed, error) = match (self.offset, offset) {
-            (Removal::Nothing, _) => (None, 0.0),
-            (Removal::Given(value), _) => (Some(value), 0.0),
-            (Removal::Found, Some(offset)) => (Some(offset.value), offset.error),
+        let offset = match self.rest {
+            None => Offset::before_pulse(raw),
+            Some(window) => Offset::within(raw, window),
+        };
+        let removed = match (self.offset, offset) {
+            (Removal::Nothing, _) => None,
+            (Removal::Given(value), _) => Some(value),
+            (Removal::Found, Some(offset)) => Some(offset.value),
             (Removal::Found, None) => return Err(SettingsFault::NoRest),
         };
+        let rest = offset.map_or(0.0, |own| own.value - removed.unwrap_or(0.0));
+        // A velocity or displacement may stand anywhere before a blow.
+        let has_zero = matches!(raw.dimension(), Dimension::ACCELERATION | Dimension::FORCE);
+        let error = offset.filter(|_| has_zero || self.offset == Removal::Found);
+        let error = error.map_or(0.0, |own| rest.abs() + own.error);
         let floor = error + 0.5 * raw.resolution() + self.error;
         let sign = if self.is_inverted { -1.0 } else { 1.0 };
         let mut channel = raw.map(|own| sign * (own - removed.unwrap_or(0.0)));
         if let Some(rate) = self.rate {
-            channel = channel.resampled(rate).map_err(SettingsFault::NothingLeft)?;
+            channel = channel.resampled(rate).map_err(|fault| match fault {
+                ChannelFault::TooMany { .. } => SettingsFault::Rate(fault),
+                fault => SettingsFault::NothingLeft(fault),
+            })?;
         }
         if let Some(cfc) = self.cfc {
             let steps = channel.steps();
@@ -137,7 +162,7 @@ impl Settings {
         if let Some(window) = self.window {
             channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
         }
-        Ok(Treated { channel, offset, removed, floor })
+        Ok(Treated { channel, offset, removed, floor, rest: sign * rest })
     }
 
     /// Reads a channel.
@@ -146,36 +171,58 @@ impl Settings {
     ///
     /// [`SettingsFault`], where the channel does not allow what is asked for.
     pub fn analyse(&self, raw: Channel) -> Result<Analysis, SettingsFault> {
-        let steps = raw.steps();
-        let Treated { channel, offset, removed, floor } = self.treated(&raw)?;
-        let reader = Reader::new(&channel, floor);
-        let mut readings: Vec<Reading> =
-            Measure::of(channel.dimension()).filter_map(|own| reader.read(own)).collect();
-        let approach = self.approach.filter(|_| channel.dimension() == Dimension::ACCELERATION);
+        let treated = self.treated(&raw)?;
+        let (touch, span) = (self.approach.and_then(|own| own.touch), treated.channel.span());
+        if let Some(touch) = touch.filter(|own| *own < span.0 || *own > span.1) {
+            return Err(SettingsFault::NoTouch { touch, span });
+        }
+        let noise = Noise::of(&raw, treated.offset.as_ref(), self.cfc);
+        let mut own = self.read(raw, treated, noise, Part::Whole);
+        own.defects = defects(&own);
+        Ok(own)
+    }
+
+    /// Reads a channel that was treated, but for its defects.
+    pub(crate) fn read(
+        &self,
+        raw: Channel,
+        treated: Treated,
+        noise: Noise,
+        part: Part,
+    ) -> Analysis {
+        let Treated { channel, offset, removed, floor, rest } = treated;
+        let doubt = Doubt { floor, rest, noise };
+        let reader = Reader::new(&channel, doubt);
+        let is_read =
+            |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
+        let measures = Measure::of(channel.dimension()).filter(is_read);
+        let mut readings: Vec<Reading> = measures.filter_map(|own| reader.read(own)).collect();
+        let approach = self.approach.filter(|own| match channel.dimension() {
+            Dimension::FORCE => own.mass.is_some(),
+            dimension => dimension == Dimension::ACCELERATION,
+        });
         let motion = approach.map(|own| reader.motion(own));
         for (motion, approach) in motion.iter().zip(approach) {
             readings.extend(motion.readings(&channel, approach));
         }
         let (polarity, contact) = (channel.polarity(), reader.contact());
         drop(reader);
-        let (settings, none) = (*self, Vec::new());
-        let mut own = Analysis {
+        Analysis {
+            steps: raw.steps(),
             raw,
             channel,
-            steps,
+            part,
             offset,
             removed,
-            settings,
+            settings: *self,
             polarity,
             contact,
             readings,
             motion,
             work: None,
-            floor,
-            defects: none,
-        };
-        own.defects = defects(&own);
-        Ok(own)
+            doubt,
+            defects: Vec::new(),
+        }
     }
 }
 

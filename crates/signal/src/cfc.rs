@@ -11,6 +11,8 @@ use thiserror::Error;
 const DESIGN: f64 = 2.0775;
 /// The standards want a sampling rate of so many times the class.
 const LEAST_RATE: f64 = 10.0;
+/// So many samples may stand before a record for a filter, and behind it.
+const MOST_PADDING: f64 = 1e6;
 /// After so many periods of the design frequency the answer to an impulse has died out to 10⁻¹².
 const MEMORY: f64 = 7.0;
 
@@ -78,6 +80,9 @@ pub enum CfcFault {
     /// A class that is no positive number.
     #[error("a channel frequency class is a positive number of hertz, such as 180")]
     NoClass,
+    /// A class that remembers more samples than are kept.
+    #[error("CFC {class} reaches over {reach:.3e} samples at this rate, and at most 1e6 are kept")]
+    TooLow { class: f64, reach: f64 },
     /// A rate at which the design frequency does not exist.
     #[error(
         "CFC {class} has its design frequency at {design:.0} Hz, and {rate:.0} Hz sample no more than {:.0} Hz",
@@ -144,7 +149,8 @@ impl Cfc {
     ///
     /// # Errors
     ///
-    /// [`CfcFault::TooSlow`] where half of the sampling rate \[Hz\] is not above the design frequency.
+    /// [`CfcFault::TooSlow`] where half of the sampling rate \[Hz\] is not above the design frequency, and
+    /// [`CfcFault::TooLow`] where what it takes of the past is longer than 10⁶ samples.
     pub fn filter(self, values: &[f64], rate: f64, padding: Padding) -> Result<Vec<f64>, CfcFault> {
         let design = self.design_frequency();
         if 2.0 * design >= rate {
@@ -152,6 +158,9 @@ impl Cfc {
         }
         let pass = self.pass(rate);
         let wanted = MEMORY * rate / design;
+        if wanted > MOST_PADDING && padding != Padding::None {
+            return Err(CfcFault::TooLow { class: self.class, reach: wanted });
+        }
         let mut length = 0;
         while (length as f64) < wanted && padding != Padding::None {
             length += 1;

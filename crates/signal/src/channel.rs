@@ -12,6 +12,11 @@ const GAP: f64 = 1.5;
 /// Fewer different values tell no resolution; a coarse curve bends by as much at this share of its changes.
 const FEW_VALUES: usize = 5;
 const ROUGH: f64 = 0.1;
+/// How near to a multiple of a resolution steps are, and which part of them at least.
+const MULTIPLE: f64 = 0.1;
+const STEPPED: f64 = 0.8;
+/// A record is read at so many times at most, or at as many as it has.
+const MOST_SAMPLES: usize = 1_000_000;
 /// Rounding of values, in parts of the largest.
 const NOISE: f64 = 1e-14;
 
@@ -38,6 +43,9 @@ pub enum ChannelFault {
     /// A time or value that is no finite number.
     #[error("a sample is not a finite number")]
     NotFinite { at: usize },
+    /// A rate at which there are more samples than are read.
+    #[error("at this rate it has {count:.3e} samples, and at most {most} are read")]
+    TooMany { count: f64, most: usize },
     /// A time that is not behind the one before.
     #[error("the time {time} s stands after {before} s: the time of samples rises")]
     TimeBack { at: usize, time: f64, before: f64 },
@@ -48,7 +56,7 @@ impl ChannelFault {
     pub fn sample(&self) -> Option<usize> {
         match self {
             Self::NotFinite { at } | Self::TimeBack { at, .. } => Some(*at),
-            Self::TooFew { .. } | Self::Uneven { .. } => None,
+            Self::TooFew { .. } | Self::Uneven { .. } | Self::TooMany { .. } => None,
         }
     }
 }
@@ -81,6 +89,14 @@ impl Polarity {
         match self {
             Self::Positive => "positive",
             Self::Negative => "negative",
+        }
+    }
+
+    /// 1 or −1.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
         }
     }
 }
@@ -170,19 +186,23 @@ impl Channel {
     }
 
     /// The resolution of its values: the smallest difference of two that are not the same, where the curve is as rough
-    /// as that; 0 where it is smoother, or has a few values alone, which tell nothing of a resolution.
+    /// as that and most differences are multiples of it; 0 where it is smoother, or has a few values alone, which tell
+    /// nothing of a resolution.
     pub fn resolution(&self) -> f64 {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);
         let rounding = NOISE * self.largest().1;
-        let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > rounding);
-        let (count, least) =
-            steps.fold((0, f64::INFINITY), |own, step| (own.0 + 1, own.1.min(step)));
+        let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+        let steps: Vec<f64> = steps.filter(|step| *step > rounding).collect();
+        let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_multiple = |step: &&f64| (*step / least - (*step / least).round()).abs() < MULTIPLE;
+        let multiples = steps.iter().filter(is_multiple).count();
         let bends = self.values.windows(3).map(|own| (own[2] - 2.0 * own[1] + own[0]).abs());
         let rough = bends.filter(|bend| *bend > 0.5 * least).count() as f64;
         let changes = self.values.windows(2).filter(|own| (own[1] - own[0]).abs() > rounding);
         let is_rough = rough > ROUGH * changes.count() as f64;
-        if count >= FEW_VALUES && is_rough { least } else { 0.0 }
+        let is_stepped = multiples as f64 > STEPPED * steps.len() as f64;
+        if steps.len() >= FEW_VALUES && is_rough && is_stepped { least } else { 0.0 }
     }
 
     /// The same with other values, as many as it has.
@@ -196,6 +216,11 @@ impl Channel {
     #[must_use]
     pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
         self.with_values(self.values.iter().copied().map(change).collect())
+    }
+
+    /// The same over a divisor, as another quantity: of a force over a mass the acceleration.
+    pub(crate) fn over(&self, divisor: f64, dimension: Dimension) -> Self {
+        Self { dimension, ..self.map(|own| own / divisor) }
     }
 
     /// The value at a time \[s\], on the line between samples; beyond the ends that of the end.
@@ -227,10 +252,14 @@ impl Channel {
     ///
     /// # Errors
     ///
-    /// A rate at which it has fewer than two samples.
+    /// A rate at which it has fewer than two samples, or more than 10⁶ and more than it has.
     pub fn resampled(&self, rate: f64) -> Result<Self, ChannelFault> {
         let (start, end) = self.span();
         let count = ((end - start) * rate * (1.0 + 1e-12)).floor();
+        let most = MOST_SAMPLES.max(self.times.len());
+        if count >= most as f64 {
+            return Err(ChannelFault::TooMany { count, most });
+        }
         let mut times = Vec::new();
         let mut at = 0.0;
         while at <= count {

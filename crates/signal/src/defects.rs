@@ -59,6 +59,12 @@ pub enum Defect {
     OddPeak { peak: f64 },
     /// A length of a pulse that no impact test has: the unit of time may be another.
     OddLength { length: f64 },
+    /// An axis beside others that went through another filter class, so that they have no resultant.
+    OtherFilter,
+    /// An axis of which there are two channels, so that it is not clear which one is part of the resultant.
+    AxisTwice,
+    /// An axis whose times, or whose peak, are not within those of the others.
+    AxesApart,
 }
 
 impl Defect {
@@ -80,125 +86,102 @@ impl Defect {
             Self::OddClass { .. } => "odd-class",
             Self::OddPeak { .. } => "odd-peak",
             Self::OddLength { .. } => "odd-length",
+            Self::OtherFilter => "other-filter",
+            Self::AxisTwice => "axis-twice",
+            Self::AxesApart => "axes-apart",
         }
     }
 }
 
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Flat { .. }
-            | Self::Offset { .. }
-            | Self::Drift { .. }
-            | Self::Clipped { .. }
-            | Self::Coarse { .. }
-            | Self::OddPeak { .. } => self.of_values(f),
-            Self::Held { .. }
-            | Self::Dropped { .. }
-            | Self::Spikes { .. }
-            | Self::UnevenSteps { .. }
-            | Self::FewSamples { .. }
-            | Self::Cut
-            | Self::SlowForClass { .. }
-            | Self::OddClass { .. }
-            | Self::OddLength { .. } => self.of_times(f),
-        }
+        f.write_str(&self.of_values().or_else(|| self.of_times()).unwrap_or_default())
     }
 }
 
 impl Defect {
     /// What is wrong with values.
-    fn of_values(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn of_values(&self) -> Option<String> {
         let percent = |share: f64| dashpot_units::percent(share, 2);
-        match *self {
+        Some(match *self {
             Self::Flat { value, unit } => {
-                write!(f, "every sample is {}: nothing was measured", shown(value, unit))
+                format!("every sample is {}: nothing was measured", shown(value, unit))
             }
-            Self::Offset { value, error, share, unit } => write!(
-                f,
+            Self::Offset { value, error, share, unit } => format!(
                 "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
                 shown(value, unit),
                 shown(error, unit),
                 percent(share)
             ),
-            Self::Drift { change, share, unit } => write!(
-                f,
+            Self::Drift { change, share, unit } => format!(
                 "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
                 shown(change, unit),
                 percent(share)
             ),
-            Self::Clipped { level, samples, time, unit } => write!(
-                f,
+            Self::Clipped { level, samples, time, unit } => format!(
                 "is clipped at {}: {samples} equal samples at its largest value, from {} on; the peak was higher",
                 shown(level, unit),
                 quantity(time, "s", DIGITS)
             ),
-            Self::Coarse { step, share, unit } => write!(
-                f,
+            Self::Coarse { step, share, unit } => format!(
                 "its values come in steps of {}, {} of the peak",
                 shown(step, unit),
                 percent(share)
             ),
-            Self::OddPeak { peak } => write!(
-                f,
+            Self::OddPeak { peak } => format!(
                 "a peak of {} is none of an impact: is the unit right?",
                 shown(peak, Dimension::ACCELERATION)
             ),
-            _ => Ok(()),
-        }
+            _ => return None,
+        })
     }
 
     /// What is wrong with times and their samples.
-    fn of_times(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    fn of_times(&self) -> Option<String> {
         let ms = |time: f64| quantity(time, "s", DIGITS);
-        match *self {
-            Self::Held { samples, time } => write!(
-                f,
+        Some(match *self {
+            Self::Held { samples, time } => format!(
                 "holds one value for {samples} samples within the pulse, from {} on: samples were dropped",
                 ms(time)
             ),
-            Self::Dropped { gaps, time, longest, usual } => write!(
-                f,
+            Self::Dropped { gaps, time, longest, usual } => format!(
                 "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
                 if gaps == 1 { "place" } else { "places" },
                 ms(time),
                 ms(longest),
                 ms(usual)
             ),
-            Self::Spikes { count, time } => write!(
-                f,
+            Self::Spikes { count, time } => format!(
                 "{count} {} out of line with both neighbours, the first one at {}",
                 if count == 1 { "sample is" } else { "samples are" },
                 ms(time)
             ),
-            Self::UnevenSteps { range } => write!(
-                f,
+            Self::UnevenSteps { range } => format!(
                 "its steps are uneven, from {} to {}; a line between samples takes them as they are",
                 ms(range.0),
                 ms(range.1)
             ),
             Self::FewSamples { samples } => {
-                write!(f, "its pulse has {samples} samples: the sampling rate is too low")
+                format!("its pulse has {samples} samples: the sampling rate is too low")
             }
-            Self::Cut => f.write_str(
-                "the record begins or ends within the pulse: its numbers are those of a part",
-            ),
-            Self::SlowForClass { rate, class, least } => write!(
-                f,
+            Self::Cut => "the record begins or ends within the pulse: its numbers are those of a part".to_owned(),
+            Self::SlowForClass { rate, class, least } => format!(
                 "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
                 quantity(rate, "Hz", DIGITS),
                 quantity(least, "Hz", DIGITS)
             ),
             Self::OddClass { class } => {
-                write!(f, "CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")
+                format!("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")
             }
-            Self::OddLength { length } => write!(
-                f,
+            Self::OddLength { length } => format!(
                 "a pulse of {} is none of an impact: is the unit of time right?",
                 ms(length)
             ),
-            _ => Ok(()),
-        }
+            Self::OtherFilter => "went through another filter class than other axes of its location, and is no part of their resultant".to_owned(),
+            Self::AxisTwice => "is one of two channels of the same axis: no resultant is formed; `--channel` names one of each axis".to_owned(),
+            Self::AxesApart => "was not recorded at the times at which the other axes of its location were: no resultant is formed".to_owned(),
+            _ => return None,
+        })
     }
 }
 

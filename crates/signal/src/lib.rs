@@ -5,9 +5,13 @@
 //! Between samples a channel is a straight line and windows are continuous; [`Sampling`] says how far the signal
 //! itself may be from that line, and every [`Reading`] has the error that follows.
 //!
+//! Channels that are axes of one location, as a [`Place`] tells, have a resultant: [`Analysis::resultants`].
+//!
 //! The crate reads no files and prints nothing.
 
 mod analysis;
+mod axes;
+mod blow;
 mod cfc;
 mod channel;
 mod contact;
@@ -15,25 +19,31 @@ mod defects;
 pub mod iso_mme;
 mod measures;
 mod motion;
+mod noise;
 mod offset;
 mod rating;
 mod recorder;
 mod repeats;
+mod resultant;
 mod sampling;
 mod whitener;
 mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
+pub use axes::{Axis, Place};
+pub use blow::Blow;
 pub use cfc::{Cfc, CfcFault, Padding};
 pub use channel::{Channel, ChannelFault, Polarity, Steps};
 pub use contact::{CONTACT_LEVEL, Contact};
 pub use defects::Defect;
 pub use measures::{Measure, Reading, Reason};
 pub use motion::{Approach, Motion};
+pub use noise::{Doubt, Noise};
 pub use offset::Offset;
 pub use rating::{Grade, Rating, Unrated};
 pub use recorder::Recorder;
 pub use repeats::{Band, Repeated};
+pub use resultant::Part;
 pub use sampling::Sampling;
 pub use whitener::Whitener;
 pub use work::{Work, WorkFault};

@@ -8,7 +8,7 @@ use dashpot_analysis::{
 };
 use dashpot_units::Dimension;
 
-use crate::{Approach, Channel, Contact, Motion, sampling::Sampling};
+use crate::{Approach, Channel, Contact, Doubt, Motion, sampling::Sampling};
 
 /// The time of a clip \[s\].
 const CLIP: f64 = 0.003;
@@ -78,7 +78,7 @@ pub struct Reading {
     pub measure: Measure,
     /// The value, on straight lines between samples and over continuous windows.
     pub value: Result<f64, Reason>,
-    /// How far it may be off: by what samples do not tell, by the offset that was taken off, by the resolution.
+    /// How far it may be off: by what samples do not tell, by the offset, by the resolution, by noise.
     pub error: f64,
     /// When it is \[s\], where it is at one time.
     pub time: Option<f64>,
@@ -162,6 +162,18 @@ impl Measure {
         matches!(self, Self::Hic | Self::Hic15 | Self::Hic36 | Self::SeverityIndex)
     }
 
+    /// Whether a magnitude has it, which has no direction to be added up along.
+    pub(crate) fn is_of_magnitudes(self) -> bool {
+        !matches!(self, Self::VelocityChange | Self::Impulse)
+    }
+
+    /// Whether that of a body is the one of the resultant of its axes, which no axis alone exceeds: peak, HIC, severity
+    /// index and clips of an acceleration.
+    pub fn is_of_body(self, channel: Dimension) -> bool {
+        let is_clip = matches!(self, Self::Peak | Self::Clip3ms | Self::Clip3msAtOnce);
+        channel == Dimension::ACCELERATION && (is_clip || self.is_index())
+    }
+
     fn cap(self) -> f64 {
         match self {
             Self::Hic15 => 0.015,
@@ -175,28 +187,35 @@ impl Measure {
 pub(crate) struct Reader<'c> {
     channel: &'c Channel,
     sampling: Sampling<'c>,
-    /// How far every sample may be off in the same direction \[unit\].
-    floor: f64,
+    doubt: Doubt,
     exceedance: Option<Exceedance>,
     criteria: OnceCell<Vec<Reading>>,
 }
 
 impl<'c> Reader<'c> {
-    pub(crate) fn new(channel: &'c Channel, floor: f64) -> Self {
+    pub(crate) fn new(channel: &'c Channel, doubt: Doubt) -> Self {
         let is_acceleration = channel.dimension() == Dimension::ACCELERATION;
         let exceedance =
             is_acceleration.then(|| Exceedance::new(&channel.signal(1.0), channel.span()));
         let (sampling, criteria) = (Sampling::of(channel), OnceCell::new());
-        Self { channel, sampling, floor, exceedance, criteria }
+        Self { channel, sampling, doubt, exceedance, criteria }
     }
 
-    /// The motion of the body that the channel is on.
+    /// The motion of the body that an acceleration is on, or that a force acts on.
     pub(crate) fn motion(&self, approach: Approach) -> Motion {
-        Motion::of(self.channel, &self.sampling, approach, self.contact(), self.floor)
+        let (contact, doubt) = (self.contact(), &self.doubt);
+        match approach.mass.filter(|_| self.channel.dimension() == Dimension::FORCE) {
+            None => Motion::of(self.channel, &self.sampling, approach, contact, doubt),
+            Some(mass) => {
+                let channel = self.channel.over(mass, Dimension::ACCELERATION);
+                let sampling = Sampling::of(&channel);
+                Motion::of(&channel, &sampling, approach, contact, &doubt.over(mass))
+            }
+        }
     }
 
     pub(crate) fn contact(&self) -> Contact {
-        Contact::of(self.channel, &self.sampling, self.floor)
+        Contact::of(self.channel, &self.sampling, &self.doubt)
     }
 
     /// What a measure says; `None` of one of another dimension, of motion or of work.
@@ -221,7 +240,10 @@ impl<'c> Reader<'c> {
 
     fn peak(&self) -> Reading {
         let (at, value) = self.channel.largest();
-        let reading = Reading::new(Measure::Peak, value, self.sampling.overshoot() + self.floor);
+        let Doubt { floor, noise, .. } = self.doubt;
+        let noise = noise.extreme_near(self.channel.values(), value);
+        let error = self.sampling.overshoot() + floor + noise;
+        let reading = Reading::new(Measure::Peak, value, error);
         Reading { time: self.channel.times().get(at).copied(), ..reading }
     }
 
@@ -229,8 +251,15 @@ impl<'c> Reader<'c> {
         let span = self.channel.span();
         let samples = self.channel.times().windows(2).zip(self.channel.values().windows(2));
         let value = samples.map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1])).sum();
-        let error = self.sampling.area(span) + self.floor * (span.1 - span.0);
+        let error = self.hidden(span);
         Reading::new(measure, value, error).over(span)
+    }
+
+    /// How far the integral over a window may be off \[unit s\].
+    fn hidden(&self, window: (f64, f64)) -> f64 {
+        let Doubt { floor, noise, .. } = self.doubt;
+        let length = window.1 - window.0;
+        self.sampling.area(window) + floor * length + noise.area(length)
     }
 
     /// The criteria, which share what is known of the signal.
@@ -249,7 +278,7 @@ impl<'c> Reader<'c> {
         if length <= 0.0 {
             return Reading::new(measure, 0.0, 0.0).over(found.interval);
         }
-        let hidden = self.sampling.area(found.interval) + self.floor * length;
+        let hidden = self.hidden(found.interval);
         let mean = (found.value / length).powf(0.4);
         // The true signal may have the larger mean, and with it the steeper criterion.
         let growth = EXPONENT * (mean + hidden / STANDARD_GRAVITY / length).powf(1.5);
@@ -261,7 +290,9 @@ impl<'c> Reader<'c> {
 
     fn severity(&self) -> Reading {
         let (times, values) = (self.channel.times(), self.channel.values());
-        let (mut value, mut error, mut on_samples) = (0.0, 0.0, 0.0);
+        let (mut value, mut error, mut variance, mut on_samples) = (0.0, 0.0, 0.0, 0.0);
+        let Doubt { floor, noise, .. } = self.doubt;
+        let scatter = noise.deviation / STANDARD_GRAVITY;
         let index = |own: f64| (own.abs() / STANDARD_GRAVITY).powf(EXPONENT);
         for at in 0..times.len() - 1 {
             let step = times[at + 1] - times[at];
@@ -269,11 +300,16 @@ impl<'c> Reader<'c> {
             value += step * power_of_line(ends, EXPONENT);
             on_samples += 0.5 * step * (index(values[at]) + index(values[at + 1]));
             let hidden = self.sampling.hidden(at);
-            let most = ends[0].abs().max(ends[1].abs())
-                + (hidden.height.abs() + self.floor) / STANDARD_GRAVITY;
-            error += EXPONENT * most.powf(EXPONENT - 1.0) * (hidden.area + self.floor * step)
-                / STANDARD_GRAVITY;
+            let most =
+                ends[0].abs().max(ends[1].abs()) + (hidden.height.abs() + floor) / STANDARD_GRAVITY;
+            let growth = EXPONENT * most.powf(EXPONENT - 1.0);
+            error += growth * (hidden.area + floor * step) / STANDARD_GRAVITY;
+            variance += noise.intensity * step * (growth / STANDARD_GRAVITY).powi(2);
+            // The index is convex, so that noise adds half of the second derivative times its variance.
+            let bend = EXPONENT * (EXPONENT - 1.0) * most.max(scatter).powf(EXPONENT - 2.0);
+            error += 0.5 * bend * scatter * scatter * step;
         }
+        error += 2.0 * variance.sqrt();
         let reading = Reading::new(Measure::SeverityIndex, value, error).over(self.channel.span());
         Reading { on_samples: Some(on_samples), ..reading }
     }
@@ -287,9 +323,11 @@ impl<'c> Reader<'c> {
         }
         let level = |duration: f64| exceedance.level(duration, counted).value;
         let value = level(CLIP);
-        let shift = self.sampling.passages(value, span);
+        let shift = self.sampling.passages(value, span, f64::abs);
         let apart = [CLIP - shift, CLIP + shift].map(|own| (level(own.max(0.0)) - value).abs());
-        Some(Reading::new(measure, value, apart[0].max(apart[1]) + self.floor))
+        let noise = self.doubt.noise.extreme_near(self.channel.values(), value);
+        let error = apart[0].max(apart[1]) + self.doubt.floor + noise;
+        Some(Reading::new(measure, value, error))
     }
 }
 

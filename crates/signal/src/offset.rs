@@ -20,6 +20,8 @@ pub struct Offset {
     /// How far the reading at rest during the pulse may be from it: twice the standard error of the mean of blocks,
     /// the change from the first to the second half, and half of the resolution where no noise blurs it.
     pub error: f64,
+    /// Standard error of the mean, by the scatter of the means of eight blocks.
+    pub standard_error: f64,
     /// From when to when the mean is taken \[s\].
     pub window: (f64, f64),
     /// Samples in it.
@@ -59,6 +61,16 @@ impl Offset {
         (own.noise <= RESTLESS * peak).then_some(own)
     }
 
+    /// The same within a window \[s\] in which something else tells that nothing has begun; `None` of fewer than eight
+    /// samples.
+    pub fn within(channel: &Channel, window: (f64, f64)) -> Option<Self> {
+        let times = channel.times();
+        let from = times.partition_point(|time| *time < window.0);
+        let to = times.partition_point(|time| *time <= window.1);
+        let (times, values) = (times.get(from..to)?, channel.values().get(from..to)?);
+        (times.len() >= FEWEST).then(|| Self::of(times, values, channel.resolution()))
+    }
+
     fn of(times: &[f64], values: &[f64], resolution: f64) -> Self {
         let count = values.len();
         let value = mean(values);
@@ -74,6 +86,7 @@ impl Offset {
         let coarse = if noise < resolution { 0.5 * resolution } else { 0.0 };
         Self {
             value,
+            standard_error: standard,
             error: 2.0 * standard + change.abs() + coarse,
             window: (times[0], times[count - 1]),
             samples: count,

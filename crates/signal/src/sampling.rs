@@ -72,6 +72,11 @@ impl<'c> Sampling<'c> {
         self.steps(window).map(|at| self.hidden(at).area).sum()
     }
 
+    /// How far the signal may be off the line at most \[unit\].
+    pub(crate) fn height(&self) -> f64 {
+        (0..self.bends.len() - 1).map(|at| self.hidden(at).height.abs()).fold(0.0, f64::max)
+    }
+
     /// How much larger than its largest sample the magnitude of the signal may be \[unit\].
     pub fn overshoot(&self) -> f64 {
         let values = self.channel.values();
@@ -86,12 +91,17 @@ impl<'c> Sampling<'c> {
         (0..values.len() - 1).map(above).fold(0.0, f64::max)
     }
 
-    /// How far the time at which the magnitude passes a level may be off, added up over all steps in a window in
-    /// which it passes \[s\].
-    pub(crate) fn passages(&self, level: f64, window: (f64, f64)) -> f64 {
+    /// How far the time at which what is made of the values passes a level may be off, added up over all steps in a
+    /// window in which it passes \[s\].
+    pub(crate) fn passages(
+        &self,
+        level: f64,
+        window: (f64, f64),
+        made: impl Fn(f64) -> f64,
+    ) -> f64 {
         let (times, values) = (self.channel.times(), self.channel.values());
         let shift = |at: usize| {
-            let [one, other] = [values[at].abs(), values[at + 1].abs()];
+            let [one, other] = [made(values[at]), made(values[at + 1])];
             let step = times[at + 1] - times[at];
             if (one < level) == (other < level) {
                 return 0.0;

@@ -254,7 +254,7 @@ fn a_bounce_on_a_spring_has_its_closed_form() {
             let times: Vec<f64> = (0..600).map(|at| f64::from(at) / rate).collect();
             let values = times.iter().map(|time| sign * pulse(time - 0.010_03) + offset).collect();
             let channel = Channel::new("a", Dimension::ACCELERATION, times, values).unwrap();
-            let approach = Approach { velocity, mass: Some(mass), gravity: 0.0 };
+            let approach = Approach { velocity, mass: Some(mass), gravity: 0.0, touch: None };
             let settings = Settings {
                 offset: Removal::Found,
                 approach: Some(approach),

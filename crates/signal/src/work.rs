@@ -2,9 +2,7 @@
 
 use thiserror::Error;
 
-use crate::{
-    Analysis, Channel, Contact, Measure, Polarity, Reading, motion::blow, sampling::Sampling,
-};
+use crate::{Analysis, Blow, Doubt, Measure, Polarity, Reading, sampling::Sampling};
 
 /// What a blow does to a pad: the loop of force over displacement.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,21 +32,19 @@ pub enum WorkFault {
 impl Work {
     /// The work of a force over a displacement, both along the blow: the force counts as positive where it points as its
     /// peak does, the displacement where it is largest. Between samples both are lines, so that the product is exact on
-    /// them; the error is what every second sample would change, and what the forces of half a resolution do.
+    /// them; the error is what every second sample would change, what the forces of half a resolution do, and noise.
     ///
     /// # Errors
     ///
     /// [`WorkFault`].
-    pub fn of(
-        force: &Channel,
-        displacement: &Channel,
-        contact: Contact,
-        floors: [f64; 2],
-    ) -> Result<Self, WorkFault> {
+    pub fn of(force: &Analysis, displacement: &Analysis) -> Result<Self, WorkFault> {
+        let doubts = [force.doubt, displacement.doubt];
+        let blow = Blow::of(&force.channel, force.contact, &force.doubt, None);
+        let (force, displacement) = (&force.channel, &displacement.channel);
         if force.times() != displacement.times() {
             return Err(WorkFault::OtherTimes);
         }
-        let (first, last) = blow(force, contact, floors[0]);
+        let (first, last) = (blow.begin, blow.end);
         let start = displacement.values()[first];
         let sign = if force.polarity() == Polarity::Positive { 1.0 } else { -1.0 };
         let moved = |at: usize| displacement.values()[at] - start;
@@ -62,10 +58,23 @@ impl Work {
         let deepest = most.abs();
         let turn = points.iter().position(|own| own.1 >= deepest).unwrap_or(0);
         let peak = points.iter().map(|own| own.0.abs()).fold(0.0, f64::max);
+        let [floor, still] =
+            [doubts[0].floor, doubts[1].floor + doubts[1].noise.extreme(points.len())];
+        let step = force.steps().rate.recip();
         let of = |part: &[(f64, f64)], sign: f64| {
             let whole = area(part.iter());
             let halved = area(part.iter().step_by(2).chain(part.last()));
-            (sign * whole, (whole - halved).abs() + floors[0] * deepest + 2.0 * floors[1] * peak)
+            // What a sample weighs in the sum is half of the change of the other quantity from the one before to the next.
+            let squares = part.windows(3).fold((0.0, 0.0), |sum, own| {
+                let weight =
+                    |of: fn(&(f64, f64)) -> f64| (0.5 * (of(&own[2]) - of(&own[0]))).powi(2);
+                (sum.0 + weight(|own| own.1), sum.1 + weight(|own| own.0))
+            });
+            let variance =
+                doubts[0].noise.intensity * squares.0 + doubts[1].noise.intensity * squares.1;
+            let noise = 2.0 * (variance / step).sqrt();
+            let error = (whole - halved).abs() + floor * deepest + 2.0 * still * peak + noise;
+            (sign * whole, error)
         };
         let (taken, returned) = (of(&points[..=turn], 1.0), of(&points[turn..], -1.0));
         Ok(Self { points, taken, returned, deepest })
@@ -95,10 +104,14 @@ impl Analysis {
     ///
     /// [`WorkFault`].
     pub fn add_work(&mut self, displacement: &Self) -> Result<(), WorkFault> {
-        let floors = [self.floor, displacement.floor];
-        let work = Work::of(&self.channel, &displacement.channel, self.contact, floors)?;
+        let work = Work::of(self, displacement)?;
         let mut all = work.readings();
-        all[0].error = 2.0 * displacement.floor + Sampling::of(&displacement.channel).overshoot();
+        let Doubt { floor, noise, .. } = displacement.doubt;
+        let noise =
+            noise.extreme_near(displacement.channel.values(), displacement.channel.largest().1);
+        all[0].error = 2.0 * (floor + noise) + Sampling::of(&displacement.channel).overshoot();
+        // What was measured goes before what is told by the force alone.
+        self.readings.retain(|own| all.iter().all(|other| other.measure != own.measure));
         self.readings.extend(all);
         self.work = Some(work);
         Ok(())

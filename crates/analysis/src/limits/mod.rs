@@ -56,10 +56,14 @@ pub enum Reason {
     Beyond,
     /// It keeps the limit in the impact, which a harder blow outside of it exceeds.
     Outside,
+    /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
+    OtherAxes,
+    /// It keeps the limit, but the record is clipped: the measure was larger.
+    Clipped,
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut`, `beyond-known` or `harder-outside`.
+    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `harder-outside`, `other-axes` or `clipped`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -67,6 +71,8 @@ impl Reason {
             Self::Cut => "cut",
             Self::Beyond => "beyond-known",
             Self::Outside => "harder-outside",
+            Self::OtherAxes => "other-axes",
+            Self::Clipped => "clipped",
         }
     }
 }

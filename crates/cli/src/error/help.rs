@@ -125,6 +125,8 @@ fn signal_help(fault: &SettingsFault) -> Option<String> {
         SettingsFault::UnevenSteps { .. } => {
             "`--rate \"20 kHz\"` reads the line between its samples at even steps"
         }
+        SettingsFault::Rate(_) => "read a part of it, or take a lower `--rate`",
+        SettingsFault::NoTouch { .. } => "without `--touch` the record tells when it begins",
         SettingsFault::Cfc(CfcFault::TooSlow { .. }) => {
             "SAE J211 wants a sampling rate of ten times the class: take a lower class, or record faster"
         }

@@ -9,7 +9,7 @@ pub struct ChannelCode {
 
 impl ChannelCode {
     /// A code as it is written.
-    pub(super) fn new(text: &str) -> Self {
+    pub(crate) fn new(text: &str) -> Self {
         Self { text: text.to_owned() }
     }
 
@@ -26,6 +26,11 @@ impl ChannelCode {
     /// What was measured: `AC` acceleration, `FO` force, `DS` displacement, `VE` velocity, `TI` time.
     pub fn quantity(&self) -> Option<&str> {
         self.part(12, 14)
+    }
+
+    /// The letter of the direction: `X`, `Y` or `Z` of an axis, `R` of a resultant.
+    pub fn direction(&self) -> Option<char> {
+        self.part(14, 15)?.chars().next()
     }
 
     /// The channel frequency class that it went through: none for `0`, the class for `A` to `D`.

@@ -13,6 +13,8 @@ use thiserror::Error;
 use self::header::Header;
 use crate::{Channel, ChannelFault};
 
+/// A test has at most so many samples.
+const MOST_SAMPLES: usize = 10_000_000;
 /// What stands where nothing is known.
 const NO_VALUE: &str = "NOVALUE";
 /// Units as they are written in such files, and as they are read here.
@@ -75,6 +77,9 @@ pub enum MmeFault {
     /// A channel whose times are another channel.
     #[error("its times are those of channel `{name}`, which is not here")]
     NoReference { name: String },
+    /// More samples than are read of one test.
+    #[error("up to here the test has more than {} samples, which is the limit", MOST_SAMPLES)]
+    TooMany,
     /// Samples that are no signal.
     #[error("{0}")]
     Samples(ChannelFault),
@@ -106,6 +111,14 @@ enum Times {
 ///
 /// The first fault with the number of its text.
 pub fn read(texts: &[&str]) -> Result<Vec<MmeChannel>, (usize, MmeError)> {
+    let mut lines = 0;
+    for (at, text) in texts.iter().enumerate() {
+        let count = text.lines().count();
+        lines += count;
+        if lines > MOST_SAMPLES {
+            return Err((at, MmeError { line: count, fault: MmeFault::TooMany }));
+        }
+    }
     let all = texts.iter().enumerate();
     let all: Vec<Samples> =
         all.map(|(at, text)| samples(text).map_err(|own| (at, own))).collect::<Result<_, _>>()?;

@@ -373,7 +373,7 @@ fn misses(file: &str, key: &str, own: &TestFit, test: &Test) -> Option<String> {
         format!(
             "the peak of {file} is missed by {}: noise, {}a model that it is not",
             percent_signed(off),
-            if test.filter.is_none() {
+            if test.filter.is_none() && test.kind == Kind::Blow {
                 "a filter that the record went through (`--cfc`), or "
             } else {
                 "or "

@@ -46,7 +46,7 @@ impl Numbers {
         let rating = Rating::of(&measured, &model, measured.span());
         let relative = run.worst_relative_error().unwrap_or(0.0);
         let error = signal.error.unwrap_or(relative * model.largest().1);
-        let approach = approach(curve, times.first()? + zero, run, scene);
+        let approach = approach(curve, (*times.first()?, zero), run, scene);
         let settings = Settings { approach, ..Settings::default() };
         Some(Self {
             measured: settings.analyse(measured).ok()?,
@@ -62,16 +62,24 @@ impl Numbers {
     }
 }
 
-/// How the impactor moves then whose acceleration was measured.
-fn approach(curve: &MeasuredCurve, time: f64, run: &RunReport, scene: &Scene) -> Option<Approach> {
+/// How the impactor moves whose acceleration was measured, at the touch, which is at `zero` \[s\]; or at the first row where
+/// that is later.
+fn approach(
+    curve: &MeasuredCurve,
+    (first, zero): (f64, f64),
+    run: &RunReport,
+    scene: &Scene,
+) -> Option<Approach> {
     let mut nodes = run.assembly.nodes.iter();
     let at = nodes.position(|own| own.is_impactor() && own.name == curve.output.name())?;
     let velocity =
         run.assembly.nodes[at].velocity.filter(|_| curve.output.of == Of::Acceleration)?;
     let solution = run.solution();
-    let velocity = solution.signal(velocity).value(time);
+    let velocity = solution.signal(velocity).value(first.max(0.0) + zero);
     let gravity = scene.network.effects().iter().find_map(|own| own.gravity()).unwrap_or(0.0);
-    (velocity > 0.0).then(|| Approach { velocity, mass: Some(solution.body_mass(at)), gravity })
+    let touch = (first >= 0.0).then_some(first);
+    let mass = Some(solution.body_mass(at));
+    (velocity > 0.0).then_some(Approach { velocity, mass, gravity, touch })
 }
 
 /// Adds the work of forces whose element's deformation was measured as well, at the same times.

@@ -192,7 +192,11 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
             return Some(format!("the run ends in contact at {end}: make `duration` longer"));
         }
         Reason::Error if is_of_run => {}
-        Reason::Beyond | Reason::Outside | Reason::NoValue => return None,
+        Reason::Beyond
+        | Reason::Outside
+        | Reason::NoValue
+        | Reason::OtherAxes
+        | Reason::Clipped => return None,
         Reason::Cut | Reason::Error => return Some("a larger `--sample` may decide".to_owned()),
     }
     let value = judged.measure?.value?;

@@ -54,11 +54,17 @@ pub(super) fn names(signals: &Signals) -> Vec<String> {
 /// The channels of one file that have the same times, with the name of their table.
 fn records(signals: &Signals) -> Vec<(String, Vec<&Signal>)> {
     let mut records: Vec<(String, Vec<&Signal>)> = Vec::new();
+    let has_same = |one: &Signal, other: &Signal| {
+        one.analysis.channel.times() == other.analysis.channel.times()
+    };
     for own in &signals.all {
-        let name = format!("{}.csv", own.stem);
-        match records.iter_mut().find(|record| record.0 == name) {
+        let of_file = |record: &&mut (String, Vec<&Signal>)| record.1[0].stem == own.stem;
+        let mut of_file: Vec<_> = records.iter_mut().filter(of_file).collect();
+        let count = of_file.len();
+        match of_file.iter_mut().find(|record| has_same(record.1[0], own)) {
             Some(record) => record.1.push(own),
-            None => records.push((name, vec![own])),
+            None if count == 0 => records.push((format!("{}.csv", own.stem), vec![own])),
+            None => records.push((format!("{}.times-{}.csv", own.stem, count + 1), vec![own])),
         }
     }
     records

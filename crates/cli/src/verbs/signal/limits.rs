@@ -1,9 +1,9 @@
 //! Limits on what is read off channels.
 
-use dashpot_analysis::{Judgement, Limit};
+use dashpot_analysis::{Judgement, Limit, Reason};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits};
-use dashpot_signal::{Measure, Reading};
+use dashpot_signal::{Axis, Defect, Measure, Part, Reading};
 
 use super::{Signal, Signals};
 use crate::error::CliError;
@@ -47,15 +47,34 @@ pub(super) struct Verdict<'s> {
 }
 
 impl<'s> Verdict<'s> {
-    /// That of the values and errors of some tests, by their mean.
-    fn of(limit: &'s SignalLimit, tests: &[(&'s Signal, &'s Reading)]) -> Option<Self> {
+    /// That of the values and errors of some tests, by their mean. What does not hold all of the motion, or is clipped,
+    /// tells the least that a measure of the body is.
+    fn of(
+        limit: &'s SignalLimit,
+        tests: &[(&'s Signal, &'s Reading)],
+        guided: &[Axis],
+    ) -> Option<Self> {
         let (signal, reading) = *tests.first()?;
         let count = tests.len() as f64;
         let values: Option<Vec<f64>> = tests.iter().map(|own| own.1.value.ok()).collect();
         let value = values.map(|own| own.iter().sum::<f64>() / count);
         let error = tests.iter().map(|own| own.1.error).sum::<f64>() / count;
+        let is_part = tests.iter().any(|(own, reading)| {
+            let own = &own.analysis;
+            reading.measure.is_of_body(own.channel.dimension()) && !own.part.covers(guided)
+        });
+        let is_clipped = |own: &Defect| matches!(own, Defect::Clipped { .. });
+        let is_clipped = tests.iter().any(|own| own.0.analysis.defects.iter().any(is_clipped));
         let is_cut = tests.iter().any(|own| own.0.analysis.contact.is_cut);
-        let judgement = limit.limit.bound.judge(value.unwrap_or(f64::NAN), Some(error), is_cut);
+        let grows = is_part || is_clipped || is_cut;
+        let judgement = limit.limit.bound.judge(value.unwrap_or(f64::NAN), Some(error), grows);
+        let judgement = match judgement {
+            Judgement::Undecided(Reason::Cut) if is_part => Judgement::Undecided(Reason::OtherAxes),
+            Judgement::Undecided(Reason::Cut) if is_clipped => {
+                Judgement::Undecided(Reason::Clipped)
+            }
+            own => own,
+        };
         let (measure, tests) = (reading.measure, tests.len());
         Some(Self { limit, signal, measure, tests, value, error, judgement })
     }
@@ -104,9 +123,9 @@ impl SignalLimit {
     fn reading<'s>(&self, signal: &'s Signal) -> Option<&'s Reading> {
         let channel = &signal.analysis.channel;
         let mut all = signal.analysis.readings.iter();
-        all.find(|own| {
-            channel.name() == self.channel && is_it(self, own.measure, channel.dimension())
-        })
+        let is_named = channel.name() == self.channel
+            || matches!(&signal.analysis.part, Part::Resultant { location, .. } if *location == self.channel);
+        all.find(|own| is_named && is_it(self, own.measure, channel.dimension()))
     }
 }
 
@@ -141,9 +160,10 @@ impl Signals {
             let found = self.all.iter().filter_map(|own| Some((own, limit.reading(own)?)));
             let found: Vec<(&Signal, &Reading)> = found.collect();
             if limit.limit.of_mean {
-                verdicts.extend(Verdict::of(limit, &found));
+                verdicts.extend(Verdict::of(limit, &found, &self.guided));
             } else {
-                verdicts.extend(found.iter().filter_map(|own| Verdict::of(limit, &[*own])));
+                let of_one = |own| Verdict::of(limit, &[own], &self.guided);
+                verdicts.extend(found.into_iter().filter_map(of_one));
             }
         }
         verdicts

@@ -90,8 +90,11 @@ fn of_folder(path: &Path) -> Result<Vec<Part>, String> {
     if files.len() > MOST_FILES {
         return Err(format!("there are more than {MOST_FILES} channels in it"));
     }
+    let mut left = zip::MOST_TOGETHER;
     let read = |own: &PathBuf| {
         let bytes = bytes_of(own).map_err(|error| format!("{}: {}", name(own), reason(&error)))?;
+        let shorter = left.checked_sub(bytes.len());
+        left = shorter.ok_or("all its channels are together longer than 256 MB")?;
         Ok((name(own), bytes))
     };
     files.iter().map(read).collect()

@@ -13,7 +13,9 @@ use std::path::PathBuf;
 use clap::Args;
 use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
-use dashpot_signal::{Analysis, Approach, Cfc, Channel, Padding, Removal, Settings};
+use dashpot_signal::{
+    Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Place, Removal, Settings,
+};
 use serde::Serialize;
 
 use self::{
@@ -64,7 +66,7 @@ pub(crate) struct SignalArguments {
     #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
     cfc: Option<Cfc>,
     /// What stands beyond the ends of the record for the filter.
-    #[arg(long, value_name = "MODE", default_value = "odd", value_parser = paddings())]
+    #[arg(long, value_name = "MODE", default_value = "odd", requires = "cfc", value_parser = paddings())]
     padding: String,
     /// Reads the record from this time on, behind the filter.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
@@ -72,16 +74,24 @@ pub(crate) struct SignalArguments {
     /// Reads it up to this time.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = shift)]
     to: Option<f64>,
-    /// Speed of approach of the body that an accelerometer is on, at the beginning of the record: gives its displacement,
-    /// its rebound and the coefficient of restitution.
+    /// Speed of approach of the body that an accelerometer is on when its contact begins: gives its displacement, its
+    /// rebound and the coefficient of restitution. Before, it flies freely. A force needs `--mass` as well: that of a free
+    /// striker.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
     velocity: Option<f64>,
     /// Its mass: gives energy taken, returned and absorbed.
     #[arg(long, value_name = "MASS", value_parser = mass, requires = "velocity")]
     mass: Option<f64>,
+    /// When its contact begins [default: where the record leaves what it reads at rest].
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "velocity", value_parser = shift)]
+    touch: Option<f64>,
     /// It falls: its weight acts along the blow.
     #[arg(long, requires = "velocity")]
     falls: bool,
+    /// The rig guides the body along this axis, or in the plane of two, as in `xz`: what those axes say is then all of its
+    /// motion. By default limits on the acceleration of a body are judged on the resultant of x, y and z.
+    #[arg(long, value_name = "AXES", value_parser = axes)]
+    guided: Option<Guided>,
     /// The displacement over which a force does its work, by the name or number of its column [default: the only
     /// one of the file].
     #[arg(long, value_name = "NAME")]
@@ -98,6 +108,19 @@ pub(crate) struct SignalArguments {
     /// Prints one JSON object, in SI units, in place of text.
     #[arg(long)]
     json: bool,
+}
+
+/// Axes along which a body may move.
+#[derive(Debug, Clone)]
+struct Guided(Vec<Axis>);
+
+fn axes(text: &str) -> Result<Guided, String> {
+    let found: Option<Vec<Axis>> = text.trim().chars().map(Axis::of).collect();
+    let found = found.filter(|own| (1..Axis::ALL.len()).contains(&own.len()));
+    let found = found.filter(|own| own.first() != own.get(1));
+    found
+        .map(Guided)
+        .ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
 }
 
 fn frequency(text: &str) -> Result<f64, String> {
@@ -130,6 +153,8 @@ struct Signal {
 struct Signals {
     all: Vec<Signal>,
     limits: Vec<SignalLimit>,
+    /// Along which axes bodies may move.
+    guided: Vec<Axis>,
     notes: Vec<String>,
 }
 
@@ -145,29 +170,83 @@ impl<'a> From<&'a SignalArguments> for Wanted<'a> {
 }
 
 impl SignalArguments {
-    fn settings(&self, record: &Record, dimension: Dimension) -> Result<Settings, CliError> {
-        let offset = match self.offset.as_deref().map(str::trim) {
+    /// Refuses what says something of a channel that the record does not have.
+    fn apply_to(&self, record: &Record) -> Result<(), CliError> {
+        let wrong = |name: &str, reason: String| {
+            let reason = format!("`{}`: {reason}", record.file);
+            Err(CliError::WrongSetting { name: name.to_owned(), reason })
+        };
+        let is_of = |of: Dimension| record.channels.iter().any(|own| own.dimension() == of);
+        if self.displacement.is_some() && !is_of(Dimension::FORCE) {
+            return wrong(
+                "--displacement",
+                "no channel that is read is a force, which alone does work over one".to_owned(),
+            );
+        }
+        let mut all = 0..record.channels.len();
+        if self.velocity.is_none() || all.any(|at| self.moves(record, at)) {
+            return Ok(());
+        }
+        let reason = if is_of(Dimension::ACCELERATION) {
+            let names: Vec<&str> = record.channels.iter().map(Channel::name).collect();
+            format!(
+                "it has one direction, and {} are axes of one body: `--guided z` says which of them is along the blow, or \
+                 `--channel` names it",
+                names.join(", ")
+            )
+        } else if is_of(Dimension::FORCE) {
+            "a force moves what has a mass: say it, `--mass \"5 kg\"`, where it acts on a free striker".to_owned()
+        } else {
+            "no channel that is read is an acceleration or a force, which alone tell a motion"
+                .to_owned()
+        };
+        wrong("--velocity", reason)
+    }
+
+    /// Whether a channel tells the motion of a body that comes with `--velocity`: an acceleration, or a force on a known
+    /// mass; of several axes of one location the one along which the body is guided.
+    fn moves(&self, record: &Record, at: usize) -> bool {
+        let is_guided = |place: &Place| {
+            let is_other = |own: &Place| own.is_beside(place) && own.axis != place.axis;
+            match &self.guided {
+                Some(guided) => guided.0 == [place.axis],
+                None => !record.places.iter().flatten().any(is_other),
+            }
+        };
+        let along = record.places[at].as_ref().is_none_or(is_guided);
+        along
+            && match record.channels[at].dimension() {
+                Dimension::FORCE => self.mass.is_some(),
+                dimension => dimension == Dimension::ACCELERATION,
+            }
+    }
+
+    fn removal(&self, dimension: Dimension) -> Result<Removal, CliError> {
+        Ok(match self.offset.as_deref().map(str::trim) {
             None => Removal::Nothing,
             Some("auto") => Removal::Found,
             Some(text) => Removal::Given(setting("--offset", text, dimension)?),
-        };
+        })
+    }
+
+    fn settings(&self, record: &Record) -> Settings {
         let window = (self.from.is_some() || self.to.is_some())
             .then(|| (self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)));
         let padding = Padding::ALL.into_iter().find(|own| own.word() == self.padding);
-        Ok(Settings {
-            offset,
+        Settings {
             is_inverted: self.invert,
             rate: self.rate.filter(|_| record.has_times),
             cfc: self.cfc,
             padding: padding.unwrap_or_default(),
             window,
-            error: 0.0,
             approach: self.velocity.map(|velocity| Approach {
                 velocity,
                 mass: self.mass,
                 gravity: if self.falls { STANDARD_GRAVITY } else { 0.0 },
+                touch: self.touch,
             }),
-        })
+            ..Settings::default()
+        }
     }
 }
 
@@ -189,8 +268,10 @@ pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<
         notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
         all.extend(signals(arguments, &record, &stem)?);
     }
-    let signals = Signals { all, limits, notes };
+    let guided = arguments.guided.as_ref().map_or(Axis::ALL.to_vec(), |own| own.0.clone());
+    let signals = Signals { all, limits, guided, notes };
     limits::known(&signals)?;
+    signals.guided_are_read()?;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(&signals))?;
     signals.notes.iter().for_each(|own| note(own));
     let is_kept = signals.verdicts().iter().all(Verdict::passes);
@@ -204,28 +285,25 @@ fn signals(
     record: &Record,
     stem: &str,
 ) -> Result<Vec<Signal>, CliError> {
-    let analyse = |channel: &Channel| {
-        let settings = arguments.settings(record, channel.dimension())?;
+    arguments.apply_to(record)?;
+    let settings = arguments.settings(record);
+    let analyse = |settings: Settings, channel: &Channel| {
         settings.analyse(channel.clone()).map_err(|fault| CliError::Signal {
             file: record.file.clone(),
             channel: channel.name().to_owned(),
             fault: Box::new(fault),
         })
     };
-    let displacement = record.displacement.as_ref().map(|own| {
-        // It has an offset and a sign of its own.
-        let settings = arguments.settings(record, own.dimension())?;
-        let settings = Settings { offset: Removal::Nothing, ..settings };
-        settings.analyse(own.clone()).map_err(|fault| CliError::Signal {
-            file: record.file.clone(),
-            channel: own.name().to_owned(),
-            fault: Box::new(fault),
-        })
-    });
-    let displacement = displacement.transpose()?;
+    // It has an offset and a sign of its own.
+    let still = Settings { approach: None, ..settings };
+    let displacement = record.displacement.as_ref().map(|own| analyse(still, own)).transpose()?;
     let mut all = Vec::new();
-    for channel in &record.channels {
-        let mut analysis = analyse(channel)?;
+    for (at, (channel, place)) in record.channels.iter().zip(&record.places).enumerate() {
+        let approach = settings.approach.filter(|_| arguments.moves(record, at));
+        let offset = arguments.removal(channel.dimension())?;
+        let rest = record.rest_beside(at);
+        let mut analysis = analyse(Settings { approach, offset, rest, ..settings }, channel)?;
+        analysis.part = place.clone().map_or(Part::Whole, Part::Axis);
         if let Some(displacement) =
             displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
         {
@@ -238,9 +316,12 @@ fn signals(
                 ),
             })?;
         }
-        all.push(Signal { file: record.file.clone(), stem: stem.to_owned(), analysis });
+        all.push(analysis);
     }
-    Ok(all)
+    let resultants = Analysis::resultants(&mut all);
+    let signal =
+        |analysis: Analysis| Signal { file: record.file.clone(), stem: stem.to_owned(), analysis };
+    Ok(all.into_iter().chain(resultants).map(signal).collect())
 }
 
 /// The channels of one name in several files.
@@ -256,6 +337,20 @@ impl Group<'_> {
 }
 
 impl Signals {
+    /// Refuses to guide bodies along what no channel is an axis of.
+    fn guided_are_read(&self) -> Result<(), CliError> {
+        let is_read =
+            |axis: &Axis| self.all.iter().any(|own| own.analysis.part.axes().contains(axis));
+        let missing = self.guided.iter().find(|own| self.guided.len() < 3 && !is_read(own));
+        missing.map_or(Ok(()), |axis| {
+            let reason = format!(
+                "no channel that is read is an axis {0} by its name, as `Head {0}`",
+                axis.letter()
+            );
+            Err(CliError::WrongSetting { name: "--guided".to_owned(), reason })
+        })
+    }
+
     /// The channels of the same name, for each name in the order in which it comes.
     fn groups(&self) -> Vec<Group<'_>> {
         let mut groups: Vec<Group<'_>> = Vec::new();

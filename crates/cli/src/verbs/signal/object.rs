@@ -1,7 +1,7 @@
 //! Channels as objects for programs.
 
 use dashpot_analysis::Bound;
-use dashpot_signal::{Cfc, Reading, Reason, Removal, Repeated};
+use dashpot_signal::{Axis, Cfc, Part, Reading, Reason, Removal, Repeated};
 use dashpot_units::{Dimension, si_unit};
 use serde::Serialize;
 
@@ -34,6 +34,11 @@ fn channel(signal: &Signal) -> impl Serialize {
     object! {
         file: &signal.file,
         name,
+        axes: list(own.part.axes().into_iter().map(Axis::letter)),
+        resultant_of: match &own.part {
+            Part::Resultant { of, .. } => list(of.iter().map(|own| own.1.clone())),
+            _ => Vec::new(),
+        },
         unit: si_unit(own.channel.dimension()),
         samples: own.channel.times().len(),
         rate: own.rate(),
@@ -56,6 +61,11 @@ fn channel(signal: &Signal) -> impl Serialize {
             noise: offset.noise,
             drift: offset.drift,
         }),
+        noise: object! {
+            deviation: own.doubt.noise.deviation,
+            intensity: own.doubt.noise.intensity,
+            at_rest: own.doubt.noise.is_of_rest,
+        },
         removed: own.removed,
         removal: match settings.offset {
             Removal::Nothing => "nothing",

@@ -5,7 +5,7 @@ use std::path::Path;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, LeftOut, TableError, table_text, units::parse_quantity};
 use dashpot_signal::{
-    Channel,
+    Channel, Offset, Place,
     iso_mme::{ChannelCode, MmeChannel},
 };
 
@@ -24,11 +24,28 @@ const OTHERS: [Dimension; 3] = [Dimension::VELOCITY, Dimension::LENGTH, Dimensio
 pub(super) struct Record {
     pub(super) file: String,
     pub(super) channels: Vec<Channel>,
+    /// Where each of them is, where it is one axis.
+    pub(super) places: Vec<Option<Place>>,
     /// The displacement over which forces do work, where it is asked for, or there is one alone.
     pub(super) displacement: Option<Channel>,
     /// Whether the file says when its samples are.
     pub(super) has_times: bool,
     pub(super) notes: Vec<String>,
+}
+
+impl Record {
+    /// When an axis is at rest \[s\]: before the pulse of that one of its location with the highest peak. One across the blow
+    /// has no pulse that tells it.
+    pub(super) fn rest_beside(&self, at: usize) -> Option<(f64, f64)> {
+        let place = self.places.get(at)?.as_ref()?;
+        let is_beside = |own: &(&Channel, &Option<Place>)| {
+            own.1.as_ref().is_some_and(|own| own.is_beside(place))
+        };
+        let axes = self.channels.iter().zip(&self.places).filter(is_beside);
+        let height = |own: &Channel| own.largest().1;
+        let highest = axes.max_by(|one, other| height(one.0).total_cmp(&height(other.0)))?;
+        Some(Offset::before_pulse(highest.0)?.window)
+    }
 }
 
 /// What is wanted of a file.
@@ -54,6 +71,9 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
     let Wanted { units, rate, .. } = *wanted;
     let file = path.to_string_lossy().into_owned();
     if mme::is_one(path) {
+        if !units.is_empty() {
+            return Err(no_units(&file));
+        }
         return of_test(&file, &mme::read(path)?, wanted);
     }
     let unreadable = |reason: String| CliError::SignalFile { file: file.clone(), reason };
@@ -63,8 +83,10 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
     let table = DataTable::read(&text).map_err(|fault| in_table(&file, fault))?;
     let notes = LeftOut::of(&table).map(|own| own.to_string()).into_iter().collect();
     let reading = Reading { file: &file, table, units };
+    reading.units_are_wanted()?;
     let time = reading.time_column(rate.is_some())?;
     let columns = reading.channels(wanted.channels, time)?;
+    let places = columns.iter().map(|own| reading.place(*own, time)).collect();
     let mut channels = Vec::new();
     for (column, dimension) in columns {
         channels.push(reading.channel(time, rate, column, dimension)?);
@@ -75,7 +97,7 @@ pub(super) fn read(path: &Path, wanted: &Wanted<'_>) -> Result<Record, CliError>
         .map(|column| reading.channel(time, rate, column, Dimension::LENGTH))
         .transpose()?;
     drop(reading);
-    Ok(Record { file, channels, displacement, has_times: time.is_some(), notes })
+    Ok(Record { file, channels, places, displacement, has_times: time.is_some(), notes })
 }
 
 /// The channels of a test in ISO-MME, by their names, codes or numbers.
@@ -114,13 +136,27 @@ fn of_test(file: &str, all: &[MmeChannel], wanted: &Wanted<'_>) -> Result<Record
             _ => None,
         },
     };
+    let place = |own: &&MmeChannel| {
+        let like = of(&[own.channel.dimension()]);
+        let names: Vec<_> =
+            like.iter().map(|own| (own.channel.name(), own.code.as_ref())).collect();
+        let at = like.iter().position(|other| std::ptr::eq(*other, *own))?;
+        Place::of_channels(&names).swap_remove(at)
+    };
     Ok(Record {
         notes: notes.collect(),
+        places: chosen.iter().map(place).collect(),
         channels: chosen.iter().map(|own| own.channel.clone()).collect(),
         displacement,
         has_times: true,
         file: file.to_owned(),
     })
+}
+
+/// `--units` of a file that says them all.
+fn no_units(file: &str) -> CliError {
+    let reason = format!("`{file}` says the units of all its channels");
+    CliError::WrongSetting { name: "--units".to_owned(), reason }
 }
 
 fn in_table(file: &str, fault: TableError) -> CliError {
@@ -138,6 +174,42 @@ impl Reading<'_, '_> {
             "" => (column + 1).to_string(),
             name => name.to_owned(),
         }
+    }
+
+    /// Where a channel is, by its name among those of the same quantity.
+    fn place(&self, (column, dimension): (usize, Dimension), time: Option<usize>) -> Option<Place> {
+        let columns = (0..self.table.columns()).filter(|at| Some(*at) != time);
+        let like: Vec<usize> = columns.filter(|at| self.is_of(*at, dimension)).collect();
+        let names: Vec<String> = like.iter().map(|at| self.name(*at)).collect();
+        let names: Vec<_> = names.iter().map(|own| (&**own, None)).collect();
+        let at = like.iter().position(|own| *own == column)?;
+        Place::of_channels(&names).swap_remove(at)
+    }
+
+    /// Refuses units of columns that say another one, or that are not there, and of a file that says them all.
+    fn units_are_wanted(&self) -> Result<(), CliError> {
+        let said = |at: usize| (at < self.table.columns()).then(|| self.table.heading(at).unit);
+        let given = self.units.iter().map(|own| own.trim()).enumerate();
+        for (at, given) in given.filter(|own| !own.1.is_empty()) {
+            let reason = match said(at) {
+                None => format!(
+                    "`{given}` is for column {}, and there are {}",
+                    at + 1,
+                    self.table.columns()
+                ),
+                Some(Some(unit)) if unit != given => {
+                    format!(
+                        "the file says `{unit}` of `{}`, not `{given}`: leave its place empty",
+                        self.name(at)
+                    )
+                }
+                Some(_) => continue,
+            };
+            let reason = format!("`{}`: {reason}", self.file);
+            return Err(CliError::WrongSetting { name: "--units".to_owned(), reason });
+        }
+        let is_known = (0..self.table.columns()).all(|at| self.table.heading(at).unit.is_some());
+        if is_known && !self.units.is_empty() { Err(no_units(self.file)) } else { Ok(()) }
     }
 
     /// The unit of a column: that of the file, or the one given.

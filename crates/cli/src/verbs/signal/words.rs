@@ -1,9 +1,9 @@
 //! Channels in words.
 
-use dashpot_analysis::{Bound, Judgement, measures::STANDARD_GRAVITY};
+use dashpot_analysis::{Bound, Judgement, Reason, measures::STANDARD_GRAVITY};
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
-use dashpot_signal::{Analysis, CONTACT_LEVEL, Measure, Reading, Repeated};
+use dashpot_signal::{Analysis, Axis, CONTACT_LEVEL, Measure, Part, Reading, Repeated};
 use dashpot_units::si_unit;
 
 use super::{Group, Signal, Signals, limits::Verdict};
@@ -14,6 +14,8 @@ use crate::{
 
 /// Digits of times and rates.
 const DIGITS: usize = 4;
+/// Noise below this part of the peak is not mentioned.
+const UNSEEN: f64 = 1e-5;
 /// Digits of errors.
 const ERROR_DIGITS: usize = 1;
 
@@ -102,6 +104,11 @@ pub(super) fn heading(own: &Signal) -> String {
 
 /// What was done with a channel.
 pub(super) fn treatment(own: &Analysis) -> Vec<String> {
+    let contact = format!("contact is where it exceeds {} of its peak", share(CONTACT_LEVEL));
+    if let Part::Resultant { of, .. } = &own.part {
+        let names: Vec<&str> = of.iter().map(|own| &*own.1).collect();
+        return vec![format!("magnitude of {}, as they are read", names.join(", ")), contact];
+    }
     let dimension = own.channel.dimension();
     let value = |value: f64, digits: usize| unit(value, dimension).text(value, digits);
     let rest = own.offset.map(|offset| {
@@ -142,8 +149,12 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
     };
     let turned = if own.settings.is_inverted { ", after its signs were turned" } else { "" };
     let polarity = format!("its peak is {}{turned}", own.polarity.word());
-    let contact = format!("contact is where it exceeds {} of its peak", share(CONTACT_LEVEL));
-    vec![filter, offset, polarity, contact]
+    let noise = own.doubt.noise;
+    let from = if noise.is_of_rest { "at rest" } else { "of its fourth differences" };
+    let deviation = value(noise.deviation, 2);
+    let noise = (noise.deviation > UNSEEN * own.channel.largest().1)
+        .then(|| format!("noise of {deviation} ({from}), which is part of every error"));
+    [filter, offset].into_iter().chain(noise).chain([polarity, contact]).collect()
 }
 
 /// All that was read off a channel.
@@ -189,6 +200,20 @@ fn when(reading: &Reading) -> String {
     }
 }
 
+/// Why a limit is not decided, and what decides it.
+fn undecided(own: &Verdict<'_>, reason: Reason) -> String {
+    let axes: String = own.signal.analysis.part.axes().into_iter().map(Axis::letter).collect();
+    match reason {
+        Reason::OtherAxes => format!(
+            "; of the axes {axes} alone, and it is one on the resultant of x, y and z; `--guided {axes}` where the rig lets \
+             the body move along no other"
+        ),
+        Reason::Clipped => "; the record is clipped, and its peak was higher".to_owned(),
+        Reason::Cut => "; the record begins or ends within the pulse".to_owned(),
+        _ => String::new(),
+    }
+}
+
 /// What is known of a limit, with its word.
 pub(super) fn judged(own: &Verdict<'_>) -> (&'static str, String) {
     let label = match own.judgement {
@@ -219,6 +244,7 @@ pub(super) fn judged(own: &Verdict<'_>) -> (&'static str, String) {
         (true, tests) => format!("; the mean of {tests} tests"),
     };
     let level = unit.text(level, DIGITS);
-    let text = format!("{} {found}, {word} {level}{from}{margin}{mean}", limit.key);
+    let why = own.judgement.reason().map_or(String::new(), |reason| undecided(own, reason));
+    let text = format!("{} {found}, {word} {level}{from}{margin}{mean}{why}", limit.key);
     (label, text)
 }

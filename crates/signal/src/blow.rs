@@ -1,0 +1,66 @@
+//! When a blow begins and ends.
+
+use crate::{Channel, Contact, Doubt};
+
+/// Noise is below so many standard deviations where nothing has begun.
+const QUIET: f64 = 3.0;
+/// Rounding of values, in parts of the peak.
+const ROUNDING: f64 = 1e-12;
+
+/// A blow: from the touch, before which nothing acts, to where the channel first comes back to what it reads at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blow {
+    /// When it begins \[s\].
+    pub touch: f64,
+    /// How far that may be off \[s\].
+    pub error: f64,
+    /// The last sample before it begins.
+    pub begin: usize,
+    /// The sample at which it is over; the last one of a record that ends before.
+    pub end: usize,
+}
+
+impl Blow {
+    /// That of a channel, which begins at a time that is stated \[s\], or as the record tells.
+    ///
+    /// It begins behind the last sample before the contact that noise and resolution explain, where the line through the
+    /// first sample beyond and the first one of twice its height, and beyond noise, comes from zero. A gentler beginning
+    /// is earlier by as much as lies between these two samples at most, where noise hides it, and otherwise by a step.
+    pub(crate) fn of(
+        channel: &Channel,
+        contact: Contact,
+        doubt: &Doubt,
+        stated: Option<f64>,
+    ) -> Self {
+        let (times, values) = (channel.times(), channel.values());
+        let (sign, last) = (channel.polarity().sign(), values.len() - 1);
+        let value = |at: usize| sign * (values[at] - doubt.rest);
+        let zero = (doubt.floor - doubt.rest.abs()).max(ROUNDING * channel.largest().1);
+        let first = times.partition_point(|time| *time < contact.window.0).min(last);
+        let behind = times.partition_point(|time| *time < contact.window.1).min(last);
+        let end = (behind..=last).find(|at| value(*at) <= zero).unwrap_or(last);
+        if let Some(touch) = stated {
+            let begin = times.partition_point(|time| *time <= touch).saturating_sub(1);
+            return Self { touch, error: 0.0, begin, end: end.max(begin) };
+        }
+        // What is never at rest before is taken from where it is least.
+        let least = (0..first).map(value).fold(f64::INFINITY, f64::min);
+        let noise = QUIET * doubt.noise.deviation;
+        let quiet = zero.max(noise).max(least);
+        let Some(begin) = (0..first).rev().find(|at| value(*at) <= quiet) else {
+            return Self { touch: times[0], error: 0.0, begin: 0, end };
+        };
+        let next = begin + 1;
+        let step = times[next] - times[begin];
+        let high = (2.0 * value(next)).max(4.0 * noise).max(2.0 * zero);
+        let Some(risen) = (next + 1..=last).find(|at| value(*at) >= high) else {
+            return Self { touch: times[begin], error: step, begin, end };
+        };
+        let rise = times[risen] - times[next];
+        let hidden = if noise > 0.0 { rise } else { 0.0 };
+        let back = value(next) * rise / (value(risen) - value(next));
+        let touch = times[next] - back.clamp(0.0, step + hidden);
+        let begin = times.partition_point(|time| *time <= touch).saturating_sub(1);
+        Self { touch: touch.max(times[0]), error: step.max(hidden), begin, end }
+    }
+}
