@@ -1,9 +1,14 @@
 //! The way to the best design: spread designs, and searches from the best of them.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{
+    Mutex, PoisonError,
+    atomic::{AtomicUsize, Ordering},
+};
+
+use dashpot_analysis::{Cause, Unevaluated};
 
 use super::{
-    Aim, DesignError, Effort, Looked, Problem, Required, Requirement, Searched,
+    Aim, DepthOf, DesignError, Effort, Looked, Lost, Problem, Required, Requirement, Searched,
     aims::{Direct, Epigraph},
     evaluate::{Evaluated, Evaluator},
     programme::{Found, least},
@@ -24,6 +29,8 @@ pub(super) struct Search<'p> {
     pub(super) space: Space,
     effort: Effort,
     pub(super) solved: AtomicUsize,
+    /// What could not be evaluated: its numbers, and why.
+    missing: Mutex<Vec<(Vec<f64>, Cause)>>,
 }
 
 /// The designs that were spread.
@@ -52,7 +59,8 @@ impl<'p> Search<'p> {
         let space = Space::of(problem.variables, problem.totals);
         let begin = space.values(&space.unknowns(&problem.begin()));
         let evaluator = Evaluator::new(problem.tests, problem.aim, other, &begin)?;
-        Ok(Self { evaluator, space, effort, solved: AtomicUsize::new(0) })
+        let (solved, missing) = (AtomicUsize::new(0), Mutex::default());
+        Ok(Self { evaluator, space, effort, solved, missing })
     }
 
     /// By how much requirements are drawn in at least: neither thickness nor law is left by rounding.
@@ -70,27 +78,51 @@ impl<'p> Search<'p> {
         places.push(begin);
         let (mut looked, found) = self.looked(&places);
         looked.truncate(count);
-        let why = found.iter().find_map(|own| own.as_ref().err().cloned());
-        let all = places.into_iter().zip(found).filter_map(|(place, found)| {
-            let found = found.ok()?;
-            let is_whole = found.aims.iter().chain(&found.values).all(|own| own.is_finite());
-            is_whole.then_some(Spread { place, found })
-        });
+        let all = places.into_iter().zip(found);
+        let all = all.filter_map(|(place, found)| Some(Spread { place, found: found.ok()? }));
         let all: Vec<Spread> = all.collect();
         if all.is_empty() {
-            return Err(DesignError::Nothing(why.unwrap_or_default()));
+            return Err(DesignError::Nothing(self.lost(None).unevaluated));
         }
         Ok(Known { all, looked, is_grid })
+    }
+
+    /// What could not be evaluated so far. Where nothing keeps everything, designs of which it is not known as they press
+    /// something beyond what is known of it are among that; they are those of `looked`.
+    pub(super) fn lost(&self, looked: Option<&[Looked]>) -> Lost {
+        let mut all = self.missing.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let beyond = self.evaluator.required.iter().enumerate().filter_map(|(at, own)| {
+            let Requirement::Depth(name, DepthOf::Law | DepthOf::Radius) = &own.what else {
+                return None;
+            };
+            Some((at, name))
+        });
+        for (at, name) in beyond {
+            let designs = looked.into_iter().flatten();
+            let is_it = |own: &&Looked| own.required.get(at).is_some_and(|part| *part > 1.0);
+            all.extend(designs.filter(is_it).map(|own| {
+                let message = "it is pressed beyond what is known of it".to_owned();
+                (own.values.clone(), Cause::beyond(name, message))
+            }));
+        }
+        let causes = all.iter().map(|(place, cause)| (cause, &place[..]));
+        let unevaluated = Unevaluated::of(self.solved.load(Ordering::Relaxed), causes);
+        let aims = all.iter().map(|own| self.evaluator.least_aim(&own.0)).collect();
+        Lost { unevaluated, aims }
+    }
+
+    fn miss(&self, values: Vec<f64>, cause: Cause) {
+        self.missing.lock().unwrap_or_else(PoisonError::into_inner).push((values, cause));
     }
 
     /// What designs come to.
     pub(super) fn looked(
         &self,
         places: &[Vec<f64>],
-    ) -> (Vec<Looked>, Vec<Result<Evaluated, String>>) {
+    ) -> (Vec<Looked>, Vec<Result<Evaluated, Cause>>) {
         let found = self.solved(places);
         let none = self.no_slack();
-        let one = |(place, found): (&Vec<f64>, &Result<Evaluated, String>)| {
+        let one = |(place, found): (&Vec<f64>, &Result<Evaluated, Cause>)| {
             let values = self.space.values(place);
             let (aim, required, excess) = match found {
                 Ok(own) => (worst(&own.aims), own.values.clone(), self.excess(own, &none)),
@@ -157,7 +189,8 @@ impl<'p> Search<'p> {
 
     pub(super) fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
         self.solved.fetch_add(1, Ordering::Relaxed);
-        self.evaluator.at(&self.values(unknowns)).ok()
+        let values = self.values(unknowns);
+        self.evaluator.at(&values).map_err(|cause| self.miss(values, cause)).ok()
     }
 
     /// The designs beside one along a number, with their places, within the bounds.
@@ -181,9 +214,15 @@ impl<'p> Search<'p> {
     }
 
     /// Solves designs by all threads, in their order.
-    fn solved(&self, places: &[Vec<f64>]) -> Vec<Result<Evaluated, String>> {
+    fn solved(&self, places: &[Vec<f64>]) -> Vec<Result<Evaluated, Cause>> {
         self.solved.fetch_add(places.len(), Ordering::Relaxed);
-        self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)))
+        let all = self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)));
+        for (place, found) in places.iter().zip(&all) {
+            if let Err(cause) = found {
+                self.miss(self.values(place), cause.clone());
+            }
+        }
+        all
     }
 
     /// Does the same to all of these by all threads, in their order.

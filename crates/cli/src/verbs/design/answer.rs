@@ -1,7 +1,7 @@
 //! What a search has found, for people and for programs.
 
 use dashpot_analysis::{Judged, RunReport};
-use dashpot_design::optimum::{Design, Kept, Looked, Requirement};
+use dashpot_design::optimum::{Aim, Design, Kept, Looked, Requirement};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -66,6 +66,26 @@ impl Answer {
     pub(super) fn best(&self) -> Option<(&Choice, &Design)> {
         let Found { choice, design } = self.found.first()?;
         Some((choice, design.as_ref().ok()?))
+    }
+
+    /// How many designs that could not be evaluated may be better than the best, or keep everything where it does not.
+    pub(super) fn open(&self) -> usize {
+        let best = self.best().map(|own| own.1);
+        if best.and_then(|own| own.borne).is_some_and(|own| !own.is_enough()) {
+            let borne = |own: &Found| own.design.as_ref().ok().and_then(|own| own.borne);
+            let may_be = |own: &&Found| borne(own).is_none_or(|own| own.may_be_enough());
+            return self.found.iter().filter(may_be).count();
+        }
+        let aim = best.filter(|own| own.is_feasible).map(|own| own.aim);
+        let open = |own: &Found| match &own.design {
+            Ok(own) => own.lost.open(aim),
+            // Of a choice that could not be searched it is known what is made least only where that is a step of it.
+            Err(_) => match self.asked.least.aim(&self.asked, &own.choice) {
+                Aim::Given(least) => usize::from(aim.is_none_or(|aim| least < aim)),
+                _ => 1,
+            },
+        };
+        self.found.iter().map(open).sum()
     }
 
     /// The scene with the best.
@@ -236,10 +256,14 @@ impl Study for Answer {
                 aim: design.ok().map(|own| own.aim),
                 feasible: design.is_ok_and(|own| own.is_feasible),
                 why: design.err().cloned(),
+                unevaluated: design.ok().map(|own| &own.lost.unevaluated),
             }
         });
         object! {
             dashpot: VERSION,
+            unevaluated: design.map(|own| &own.lost.unevaluated),
+            claimed: self.open() == 0,
+            open: self.open(),
             parameters: best.map(|(choice, own)| parameters(&self.asked, choice, &own.values)),
             least: self.asked.least.name(&self.asked),
             and: self.asked.and.as_ref().map(|own| own.name(&self.asked)),
@@ -255,7 +279,8 @@ impl Study for Answer {
             choices: list(choices),
             front: list(front),
             robust: design.and_then(|own| own.borne).map(|own| object! {
-                wanted: own.wanted, kept: own.kept, designs: own.designs, deviations: own.deviations,
+                wanted: own.wanted, kept: own.kept, designs: own.designs,
+                unevaluated: own.unevaluated, deviations: own.deviations,
                 enough: own.is_enough(),
             }),
             search: design.map(|own| own.search).map(|own| object! {

@@ -87,6 +87,12 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         return Some(format!("{designs} of the sample {are} pressed beyond a law or a thickness"));
     };
     let what = match warning {
+        Warning::BeyondLaw(own) if own.at_equator => {
+            format!(
+                "{} deeper in than the radius of its body, where its shape is not modelled",
+                own.name
+            )
+        }
         Warning::BeyondLaw(own) => format!(
             "{} beyond the points of its law, where a foam that densifies is stiffer than the straight line that is \
              taken",

@@ -1,0 +1,126 @@
+//! What a study could not evaluate: scenes at other values that do not exist, whose runs fail, or whose measures have
+//! no value. A study claims an optimum, a verdict or a determined number over what was evaluated only.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{MeasureReport, Note, RunError};
+
+/// What kind of cause it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum CauseKind {
+    /// There is no scene with these values.
+    Scene,
+    /// Its run failed.
+    Run,
+    /// A measure has no value.
+    NoValue,
+    /// Something is pressed beyond what is known of it, and its force is extrapolated.
+    Beyond,
+}
+
+/// Why a scene at other values has no answer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cause {
+    /// What kind of cause it is.
+    pub kind: CauseKind,
+    /// The measure or element that it is about; empty where it is about the whole scene.
+    pub of: String,
+    /// The message of the error, or of the notes of the measure.
+    pub message: String,
+}
+
+/// The places of a study that could not be evaluated for one kind of cause.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Missing {
+    /// The cause at the first place; at the others its numbers may differ.
+    pub cause: Cause,
+    /// How many places.
+    pub count: usize,
+    /// The first place: the numbers of the study there, in its order and in SI units.
+    pub first: Vec<f64>,
+}
+
+/// What a study could not evaluate.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Unevaluated {
+    /// Places that the study looked at, those that could be evaluated included.
+    pub of: usize,
+    /// How many of them have no answer.
+    pub count: usize,
+    /// By kinds of causes, in the order of their first places.
+    pub causes: Vec<Missing>,
+}
+
+impl Cause {
+    /// There is no scene with these values, for what its reader says.
+    pub fn scene(message: String) -> Self {
+        Self { kind: CauseKind::Scene, of: String::new(), message }
+    }
+
+    /// The measure with this key has no value.
+    pub fn no_value(key: &str, measure: Option<&MeasureReport>) -> Self {
+        let message =
+            measure.map_or("it is not reported".to_owned(), |own| Note::joined(&own.notes));
+        Self { kind: CauseKind::NoValue, of: key.to_owned(), message }
+    }
+
+    /// What this element is pressed beyond.
+    pub fn beyond(element: &str, message: String) -> Self {
+        Self { kind: CauseKind::Beyond, of: element.to_owned(), message }
+    }
+
+    /// Whether both are of the same kind and about the same.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.of == other.of
+    }
+}
+
+impl From<RunError> for Cause {
+    fn from(error: RunError) -> Self {
+        Self { kind: CauseKind::Run, of: String::new(), message: error.to_string() }
+    }
+}
+
+impl Unevaluated {
+    /// What became of so many places, of which these could not be evaluated.
+    pub fn of<'c>(of: usize, all: impl IntoIterator<Item = (&'c Cause, &'c [f64])>) -> Self {
+        let mut own = Self { of, ..Self::default() };
+        for (cause, place) in all {
+            own.count += 1;
+            match own.causes.iter_mut().find(|known| known.cause.is_like(cause)) {
+                Some(known) => known.count += 1,
+                None => {
+                    own.causes.push(Missing {
+                        cause: cause.clone(),
+                        count: 1,
+                        first: place.to_vec(),
+                    });
+                }
+            }
+        }
+        own
+    }
+
+    /// Whether everything was evaluated.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_counted_by_the_kind_of_their_cause() {
+        let thin = |at: f64| Cause::scene(format!("the pad is {at} m thick"));
+        let (a, b, c) = (thin(0.1), thin(0.2), Cause::no_value("head.peak-acceleration", None));
+        let own = Unevaluated::of(5, [(&a, &[0.1][..]), (&c, &[0.15]), (&b, &[0.2])]);
+        assert_eq!((own.of, own.count, own.causes.len()), (5, 3, 2));
+        assert_eq!((own.causes[0].count, &own.causes[0].first[..]), (2, &[0.1][..]));
+        assert_eq!(own.causes[0].cause.message, "the pad is 0.1 m thick");
+        assert!(!own.is_empty() && Unevaluated::of(5, []).is_empty());
+    }
+}
