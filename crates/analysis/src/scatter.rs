@@ -55,9 +55,8 @@ pub struct Band {
     pub high: Option<f64>,
     /// Designs that have no value.
     pub without: usize,
-    /// Designs in all.
-    #[serde(skip)]
-    designs: usize,
+    /// Designs in all; the band is that of the others.
+    pub designs: usize,
 }
 
 /// How often a limit is kept.
@@ -127,6 +126,11 @@ impl Band {
             without: all.len() - known.len(),
             designs: all.len(),
         }
+    }
+
+    /// The part of the designs that have a value, from 0 to 1: those of which the band is.
+    pub fn share(&self) -> f64 {
+        (self.designs - self.without) as f64 / self.designs.max(1) as f64
     }
 
     /// The standard error of the mean, of independent designs; that of a Latin hypercube is smaller.
@@ -225,7 +229,7 @@ impl ScatterReport {
             }
         };
         let unsolved = || sweep.gaps.iter().filter(|gap| gap.column.is_none());
-        let why = |gap: &Gap| gap.reason.clone();
+        let why = |gap: &Gap| gap.cause.message.clone();
         Self {
             sources,
             designs: sweep.points(),

@@ -38,8 +38,10 @@ pub struct Missing {
     pub cause: Cause,
     /// How many places.
     pub count: usize,
-    /// The first place: the numbers of the study there, in its order and in SI units.
-    pub first: Vec<f64>,
+    /// The number of the first place, from 0, in the order of the study …
+    pub first: usize,
+    /// … and the numbers of the study there, in its order and in SI units; empty where the number tells.
+    pub values: Vec<f64>,
 }
 
 /// What a study could not evaluate.
@@ -84,23 +86,30 @@ impl From<RunError> for Cause {
 }
 
 impl Unevaluated {
-    /// What became of so many places, of which these could not be evaluated.
+    /// What became of so many places, of which these could not be evaluated, by their values.
     pub fn of<'c>(of: usize, all: impl IntoIterator<Item = (&'c Cause, &'c [f64])>) -> Self {
         let mut own = Self { of, ..Self::default() };
-        for (cause, place) in all {
-            own.count += 1;
-            match own.causes.iter_mut().find(|known| known.cause.is_like(cause)) {
-                Some(known) => known.count += 1,
-                None => {
-                    own.causes.push(Missing {
-                        cause: cause.clone(),
-                        count: 1,
-                        first: place.to_vec(),
-                    });
-                }
-            }
+        for (at, (cause, values)) in all.into_iter().enumerate() {
+            own.add(cause, at, values);
         }
         own
+    }
+
+    /// The same by their numbers.
+    pub fn at<'c>(of: usize, all: impl IntoIterator<Item = (&'c Cause, usize)>) -> Self {
+        let mut own = Self { of, ..Self::default() };
+        all.into_iter().for_each(|(cause, at)| own.add(cause, at, &[]));
+        own
+    }
+
+    fn add(&mut self, cause: &Cause, first: usize, values: &[f64]) {
+        self.count += 1;
+        if let Some(known) = self.causes.iter_mut().find(|known| known.cause.is_like(cause)) {
+            known.count += 1;
+        } else {
+            let (cause, values) = (cause.clone(), values.to_vec());
+            self.causes.push(Missing { cause, count: 1, first, values });
+        }
     }
 
     /// Whether everything was evaluated.
@@ -119,7 +128,7 @@ mod tests {
         let (a, b, c) = (thin(0.1), thin(0.2), Cause::no_value("head.peak-acceleration", None));
         let own = Unevaluated::of(5, [(&a, &[0.1][..]), (&c, &[0.15]), (&b, &[0.2])]);
         assert_eq!((own.of, own.count, own.causes.len()), (5, 3, 2));
-        assert_eq!((own.causes[0].count, &own.causes[0].first[..]), (2, &[0.1][..]));
+        assert_eq!((own.causes[0].count, &own.causes[0].values[..]), (2, &[0.1][..]));
         assert_eq!(own.causes[0].cause.message, "the pad is 0.1 m thick");
         assert!(!own.is_empty() && Unevaluated::of(5, []).is_empty());
     }

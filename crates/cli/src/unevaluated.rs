@@ -4,17 +4,15 @@ use dashpot_analysis::{CauseKind, Missing, Unevaluated};
 
 use crate::{numbers::counted, output::list};
 
-/// The label of such a line.
-pub(crate) const LABEL: &str = "not evaluated";
-
 /// One sentence for each kind of cause: `399 of 401 designs have no valid scene, the first at T = 3 mm: …`. `place` says
 /// where something is, by its numbers in SI units.
 pub(crate) fn sentences(
     all: &Unevaluated,
     noun: &str,
-    place: impl Fn(&[f64]) -> String,
+    place: impl Fn(&Missing) -> String,
 ) -> Vec<String> {
-    let sentence = |Missing { cause, count, first }: &Missing| {
+    let sentence = |own: &Missing| {
+        let Missing { cause, count, .. } = own;
         let of = &cause.of;
         let what = match cause.kind {
             CauseKind::Scene => "no valid scene".to_owned(),
@@ -22,7 +20,7 @@ pub(crate) fn sentences(
             CauseKind::Beyond => format!("{of} pressed beyond what is known of it"),
             _ => "no solution".to_owned(),
         };
-        let place = place(first);
+        let place = place(own);
         let at = if place.is_empty() { place } else { format!(", the first at {place}") };
         let has = if *count == 1 { "has" } else { "have" };
         let why = if cause.kind == CauseKind::Beyond || cause.message.is_empty() {

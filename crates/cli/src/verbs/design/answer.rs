@@ -208,7 +208,8 @@ impl Study for Answer {
             let chosen = chosen.map(|(name, own)| format!("{name} = {}", own.shown));
             Some(format!("{} has no design: {why}", list(chosen).join(", ")))
         });
-        let mut all: Vec<String> = list(unsolved);
+        let missing = self.best().map(|own| words::missing(self, own.1));
+        let mut all: Vec<String> = list(missing.into_iter().flatten().chain(unsolved));
         let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
         for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
             if !all.contains(&warning) {

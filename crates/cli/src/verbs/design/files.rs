@@ -17,7 +17,7 @@ use crate::{
     numbers::share,
     origin,
     output::{PAGE, Study as _, csv, list},
-    said, sketch, unevaluated,
+    said, sketch,
     verbs::run::scatter,
 };
 
@@ -102,13 +102,12 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
     files.add(PAGE, page(answer, best, figures).html())
 }
 
-/// The labels of what stands first on the page.
-const VERDICT: [&str; 6] = [unevaluated::LABEL, "BEST", "NONE", "PASS", "FAIL", "UNDECIDED"];
-
 fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
     let Some((choice, _)) = answer.best() else { return Report::default() };
     let lines = words::lines(answer, choice, best);
-    let verdict = lines.iter().filter(|own| VERDICT.contains(&own.label));
+    let verdict = lines
+        .iter()
+        .filter(|own| matches!(own.label, "BEST" | "NONE" | "PASS" | "FAIL" | "UNDECIDED"));
     let verdict = list(verdict.map(|own| format!("{}: {}", own.label, own.text)));
     let rows = lines.iter().map(|own| vec![own.label.to_owned(), own.text.clone()]);
     let told = Table::new("What was found", &[], rows);

@@ -1,5 +1,6 @@
 //! A design in words.
 
+use dashpot_analysis::Missing;
 use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Requirement, Side};
 use dashpot_units::percent;
 
@@ -34,9 +35,7 @@ pub(super) fn asked(asked: &Asked) -> String {
 
 pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line> {
     let asked = &answer.asked;
-    let missing = missing(answer, best);
-    let mut lines = list(missing.into_iter().map(|text| Line { label: unevaluated::LABEL, text }));
-    lines.push(verdict(answer, best));
+    let mut lines = vec![verdict(answer, best)];
     let mut add = |label, text: String| lines.push(Line { label, text });
     for (own, at) in asked.numbers.iter().zip(0..) {
         let at_bound = match best.at_bound[at] {
@@ -86,10 +85,10 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
 }
 
 /// What could not be evaluated, with the choice of words and steps where there are several.
-fn missing(answer: &Answer, best: &Design) -> Vec<String> {
+pub(super) fn missing(answer: &Answer, best: &Design) -> Vec<String> {
     let asked = &answer.asked;
-    let place = |values: &[f64]| {
-        let numbers = asked.numbers.iter().zip(values);
+    let place = |own: &Missing| {
+        let numbers = asked.numbers.iter().zip(&own.values);
         list(numbers.map(|(own, value)| format!("{} = {}", own.name, own.short(*value, DIGITS))))
             .join(", ")
     };

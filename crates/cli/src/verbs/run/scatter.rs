@@ -259,8 +259,15 @@ pub(crate) fn table(run: &RunReport) -> Option<Table> {
     let header = ["measure", "mean", "standard\ndeviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));
     let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
-    let rows = bands.map(|band| row(run, band, &zeros));
-    Some(Table::new("Scatter", &header, rows))
+    let bands: Vec<&Band> = bands.collect();
+    // A band is that of the designs that have a value.
+    let is_whole = bands.iter().all(|own| own.without == 0);
+    let header = header.into_iter().chain((!is_whole).then_some("of the\ndesigns"));
+    let rows = bands.iter().map(|band| {
+        let share = (!is_whole).then(|| covered(band));
+        row(run, band, &zeros).into_iter().chain(share).collect()
+    });
+    Some(Table::new("Scatter", &header.collect::<Vec<_>>(), rows))
 }
 
 /// Between which values of each measure 95 % of the designs drawn lie, of several scenes side by side; nothing where
@@ -287,7 +294,9 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
             let [_, _, low, high] = own
                 .as_ref()
                 .map_or(["–"; 4].map(str::to_owned), |own| cells(own, &unit, rounding));
-            format!("{low} to {high}")
+            let part = own.as_ref().filter(|own| (1..own.designs).contains(&own.without));
+            let part = part.map_or(String::new(), |own| format!(" of {}", covered(own)));
+            format!("{low} to {high}{part}")
         };
         let cells = found.iter().map(cell);
         [first.key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
@@ -313,6 +322,11 @@ fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
     let unit = unit_of(kind, [band].into_iter(), rounding);
     let [mean, deviation, low, high] = cells(band, &unit, rounding);
     vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]
+}
+
+/// Which part of the designs a band covers.
+fn covered(band: &Band) -> String {
+    percent(band.share(), FEW + 1)
 }
 
 /// Mean, deviation and both ends of a band, without what rounding leaves of zero.
