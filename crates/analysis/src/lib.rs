@@ -61,5 +61,5 @@ pub use scatter::{Band, Chance, Odds, ScatterReport, ScatterSource};
 pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, threshold_at};
 pub use solve::{Solve, solve_partial};
-pub use unevaluated::{Cause, CauseKind, Missing, Unevaluated};
+pub use unevaluated::{Cause, CauseKind, Misses, Missing, Unevaluated};
 pub use work_precision::work_precision;

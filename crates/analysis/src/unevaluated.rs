@@ -1,6 +1,11 @@
 //! What a study could not evaluate: scenes at other values that do not exist, whose runs fail, or whose measures have
 //! no value. A study claims an optimum, a verdict or a determined number over what was evaluated only.
 
+use std::{
+    cmp::Ordering,
+    sync::{Mutex, PoisonError},
+};
+
 use serde::{Deserialize, Serialize};
 
 use crate::{MeasureReport, Note, RunError};
@@ -115,6 +120,33 @@ impl Unevaluated {
     /// Whether everything was evaluated.
     pub fn is_empty(&self) -> bool {
         self.count == 0
+    }
+}
+
+/// What cannot be evaluated, as it is met by several threads.
+#[derive(Debug, Default)]
+pub struct Misses(Mutex<Vec<(Vec<f64>, Cause)>>);
+
+impl Misses {
+    /// Notes that there is no answer for these numbers of the study, in SI units.
+    pub fn note(&self, values: Vec<f64>, cause: Cause) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push((values, cause));
+    }
+
+    /// All of them so far, in the order of their numbers, whichever thread met them first.
+    pub fn all(&self) -> Vec<(Vec<f64>, Cause)> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        all.sort_by(|one, other| {
+            let each = one.0.iter().zip(&other.0).map(|(one, other)| one.total_cmp(other));
+            each.fold(Ordering::Equal, Ordering::then)
+        });
+        all
+    }
+
+    /// The same by their causes, among so many places that were looked at.
+    pub fn told(&self, of: usize) -> Unevaluated {
+        let all = self.all();
+        Unevaluated::of(of, all.iter().map(|(values, cause)| (cause, &values[..])))
     }
 }
 

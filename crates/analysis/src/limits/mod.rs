@@ -56,10 +56,12 @@ pub enum Reason {
     Beyond,
     /// It keeps the limit in the impact, which a harder blow outside of it exceeds.
     Outside,
+    /// It keeps the limit at the means of numbers with scatter, but too few of the designs do.
+    Scatter,
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut`, `beyond-known` or `harder-outside`.
+    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `harder-outside` or `scatter`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -67,6 +69,7 @@ impl Reason {
             Self::Cut => "cut",
             Self::Beyond => "beyond-known",
             Self::Outside => "harder-outside",
+            Self::Scatter => "scatter",
         }
     }
 }

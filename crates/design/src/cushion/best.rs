@@ -203,7 +203,7 @@ pub(super) fn range(tests: &Tests<'_>) -> Result<Vec<f64>, NoCushion> {
         }
     }
     let none = || {
-        let missing = tests.unevaluated(0);
+        let missing = tests.missing.told(0);
         let beyond = "none of them is within what is known of the cushion".to_owned();
         let reason = missing.causes.into_iter().next().map_or(beyond, |own| own.cause.message);
         NoCushion::NoStress { range: around, reason }

@@ -1,12 +1,9 @@
 //! Curves of drops: all their points in one sweep, and single drops between them.
 
-use std::sync::{
-    Mutex, PoisonError,
-    atomic::{AtomicUsize, Ordering},
-};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_analysis::{
-    Band, Cause, MeasureReport, RunReport, Solve, Unevaluated, Warning,
+    Band, Cause, MeasureReport, Misses, RunReport, Solve, Warning,
     measures::{PeakAcceleration, PeakDeformation},
     sweep::{
         Column, Gap, Grid, Pose, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep,
@@ -60,7 +57,7 @@ pub(super) struct Tests<'t> {
     columns: Vec<Column>,
     probes: AtomicUsize,
     /// Drops that could not be evaluated: height, thickness and static stress, and why.
-    missing: Mutex<Vec<([f64; 3], Cause)>>,
+    pub(super) missing: Misses,
 }
 
 impl<'t> Tests<'t> {
@@ -82,7 +79,7 @@ impl<'t> Tests<'t> {
             duration,
             columns: Vec::new(),
             probes: AtomicUsize::new(0),
-            missing: Mutex::default(),
+            missing: Misses::default(),
         };
         let first = own.scene(asked.heights[0], asked.thicknesses[0], platen.stress());
         let first = first.map_err(NoCushion::NotPosed)?;
@@ -95,16 +92,6 @@ impl<'t> Tests<'t> {
     /// How many single drops were solved.
     pub(super) fn probes(&self) -> usize {
         self.probes.load(Ordering::Relaxed)
-    }
-
-    /// What could not be evaluated, among so many drops.
-    pub(super) fn unevaluated(&self, of: usize) -> Unevaluated {
-        let all = self.missing.lock().unwrap_or_else(PoisonError::into_inner);
-        Unevaluated::of(of, all.iter().map(|(place, cause)| (cause, &place[..])))
-    }
-
-    fn miss(&self, place: [f64; 3], cause: Cause) {
-        self.missing.lock().unwrap_or_else(PoisonError::into_inner).push((place, cause));
     }
 
     pub(super) fn peak_key(&self) -> String {
@@ -165,7 +152,7 @@ impl<'t> Tests<'t> {
         for gap in report.gaps.iter().filter(|own| !own.is_infinite) {
             let [height, thickness, stress] = grid.places(gap.point)[..] else { continue };
             let place = [heights[height], thicknesses[thickness], stresses[stress]];
-            self.miss(place, gap.cause.clone());
+            self.missing.note(place.to_vec(), gap.cause.clone());
         }
         let work = Work {
             points: grid.len(),
@@ -304,7 +291,7 @@ impl<'t> Tests<'t> {
             known: Known::Unsolved,
         };
         let missed = |cause: Cause| {
-            self.miss([height, thickness, stress], cause);
+            self.missing.note(vec![height, thickness, stress], cause);
             unsolved
         };
         let mut scene = match self.scene(height, thickness, stress) {

@@ -293,7 +293,7 @@ pub fn cushion(
     };
     work.probes = tests.probes();
     let stress_energy = StressEnergy::of(&curves, dashpot_units::STANDARD_GRAVITY);
-    let unevaluated = tests.unevaluated(work.points + work.probes);
+    let unevaluated = tests.missing.told(work.points + work.probes);
     let platen = platen.clone();
     Ok(Cushion { platen, curves, thinnest, creep, stress_energy, unevaluated, work })
 }

@@ -26,13 +26,16 @@ pub struct Lost {
     pub unevaluated: Unevaluated,
     /// What the aim of each of them may be at least, in SI units: −∞ of a measure.
     pub aims: Vec<f64>,
+    /// Searches that were given up, as they took more designs than one may.
+    pub cut: usize,
 }
 
 impl Lost {
-    /// How many of them may be better than a design with this aim; all of them where there is none.
+    /// How many of them may be better than a design with this aim; all of them, and what searches that were given up would
+    /// have found, where there is none.
     pub fn open(&self, aim: Option<f64>) -> usize {
         let is_open = |least: &&f64| aim.is_none_or(|aim| **least < aim - SAME * aim.abs());
-        self.aims.iter().filter(is_open).count()
+        self.aims.iter().filter(is_open).count() + if aim.is_none() { self.cut } else { 0 }
     }
 }
 

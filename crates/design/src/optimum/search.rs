@@ -1,11 +1,8 @@
 //! The way to the best design: spread designs, and searches from the best of them.
 
-use std::sync::{
-    Mutex, PoisonError,
-    atomic::{AtomicUsize, Ordering},
-};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dashpot_analysis::{Cause, Unevaluated};
+use dashpot_analysis::{Cause, Misses, Unevaluated};
 
 use super::{
     Aim, DepthOf, DesignError, Effort, Looked, Lost, Problem, Required, Requirement, Searched,
@@ -23,6 +20,9 @@ pub(super) const DRAWN_IN: f64 = 1e-6;
 /// Searches that end with aims this near each other have found one design.
 pub(super) const SAME: f64 = 1e-5;
 
+/// Designs that one search may look at, for each of its unknowns and one more.
+const MOST_LOOKED: usize = 200;
+
 /// A search.
 pub(super) struct Search<'p> {
     pub(super) evaluator: Evaluator<'p>,
@@ -30,7 +30,10 @@ pub(super) struct Search<'p> {
     effort: Effort,
     pub(super) solved: AtomicUsize,
     /// What could not be evaluated: its numbers, and why.
-    missing: Mutex<Vec<(Vec<f64>, Cause)>>,
+    missing: Misses,
+    /// After so many designs in all the search at hand is given up, and how many were.
+    until: AtomicUsize,
+    cut: AtomicUsize,
 }
 
 /// The designs that were spread.
@@ -59,8 +62,8 @@ impl<'p> Search<'p> {
         let space = Space::of(problem.variables, problem.totals);
         let begin = space.values(&space.unknowns(&problem.begin()));
         let evaluator = Evaluator::new(problem.tests, problem.aim, other, &begin)?;
-        let (solved, missing) = (AtomicUsize::new(0), Mutex::default());
-        Ok(Self { evaluator, space, effort, solved, missing })
+        let [solved, cut, until] = [0, 0, usize::MAX].map(AtomicUsize::new);
+        Ok(Self { evaluator, space, effort, solved, missing: Misses::default(), until, cut })
     }
 
     /// By how much requirements are drawn in at least: neither thickness nor law is left by rounding.
@@ -87,32 +90,39 @@ impl<'p> Search<'p> {
         Ok(Known { all, looked, is_grid })
     }
 
-    /// What could not be evaluated so far. Where nothing keeps everything, designs of which it is not known as they press
-    /// something beyond what is known of it are among that; they are those of `looked`.
+    /// What could not be evaluated so far. Where nothing keeps everything, that are those of `looked` as well which round
+    /// bodies press by more than their radius, and those which keep all but the range of a law: beyond it the law is taken
+    /// as straight, which for one that stiffens is the least that its force and peak may be.
     pub(super) fn lost(&self, looked: Option<&[Looked]>) -> Lost {
-        let mut all = self.missing.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let beyond = self.evaluator.required.iter().enumerate().filter_map(|(at, own)| {
-            let Requirement::Depth(name, DepthOf::Law | DepthOf::Radius) = &own.what else {
-                return None;
-            };
-            Some((at, name))
-        });
-        for (at, name) in beyond {
-            let designs = looked.into_iter().flatten();
-            let is_it = |own: &&Looked| own.required.get(at).is_some_and(|part| *part > 1.0);
-            all.extend(designs.filter(is_it).map(|own| {
-                let message = "it is pressed beyond what is known of it".to_owned();
-                (own.values.clone(), Cause::beyond(name, message))
-            }));
+        let mut all = self.missing.all();
+        let required = &self.evaluator.required;
+        let is_exceeded = |own: &Looked, at: usize| {
+            let value = own.required.get(at).copied().unwrap_or(f64::NAN);
+            required[at].what.excess(value, 0.0) > 0.0
+        };
+        let ends = |own: &Required| {
+            matches!(own.what, Requirement::Depth(_, DepthOf::Law | DepthOf::Radius))
+        };
+        for own in looked.into_iter().flatten() {
+            let mut others = (0..required.len()).filter(|at| !ends(&required[*at]));
+            let keeps_others = !others.any(|at| is_exceeded(own, at));
+            let beyond = (0..required.len()).find_map(|at| match &required[at].what {
+                Requirement::Depth(name, of)
+                    if is_exceeded(own, at)
+                        && (*of == DepthOf::Radius || *of == DepthOf::Law && keeps_others) =>
+                {
+                    Some(name)
+                }
+                _ => None,
+            });
+            let message = || "it is pressed beyond what is known of it".to_owned();
+            let cause = beyond.map(|name| Cause::beyond(name, message()));
+            all.extend(cause.map(|cause| (own.values.clone(), cause)));
         }
         let causes = all.iter().map(|(place, cause)| (cause, &place[..]));
         let unevaluated = Unevaluated::of(self.solved.load(Ordering::Relaxed), causes);
         let aims = all.iter().map(|own| self.evaluator.least_aim(&own.0)).collect();
-        Lost { unevaluated, aims }
-    }
-
-    fn miss(&self, values: Vec<f64>, cause: Cause) {
-        self.missing.lock().unwrap_or_else(PoisonError::into_inner).push((values, cause));
+        Lost { unevaluated, aims, cut: self.cut.load(Ordering::Relaxed) }
     }
 
     /// What designs come to.
@@ -188,9 +198,12 @@ impl<'p> Search<'p> {
     }
 
     pub(super) fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
+        if self.is_over() {
+            return None;
+        }
         self.solved.fetch_add(1, Ordering::Relaxed);
         let values = self.values(unknowns);
-        self.evaluator.at(&values).map_err(|cause| self.miss(values, cause)).ok()
+        self.evaluator.at(&values).map_err(|cause| self.missing.note(values, cause)).ok()
     }
 
     /// The designs beside one along a number, with their places, within the bounds.
@@ -219,7 +232,7 @@ impl<'p> Search<'p> {
         let all = self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)));
         for (place, found) in places.iter().zip(&all) {
             if let Err(cause) = found {
-                self.miss(self.values(place), cause.clone());
+                self.missing.note(self.values(place), cause.clone());
             }
         }
         all
@@ -251,8 +264,22 @@ impl<'p> Search<'p> {
         starts
     }
 
-    /// The best design from a start, its aim and largest excess; what exceeds is brought back first.
+    fn is_over(&self) -> bool {
+        self.solved.load(Ordering::Relaxed) >= self.until.load(Ordering::Relaxed)
+    }
+
+    /// The best design from a start, its aim and largest excess; what exceeds is brought back first. None where that takes
+    /// more designs than a search may look at.
     pub(super) fn from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
+        let most = MOST_LOOKED * (start.len() + 1);
+        self.until.store(self.solved.load(Ordering::Relaxed) + most, Ordering::Relaxed);
+        let found = self.found_from(start, slack);
+        self.cut.fetch_add(usize::from(self.is_over()), Ordering::Relaxed);
+        self.until.store(usize::MAX, Ordering::Relaxed);
+        found
+    }
+
+    fn found_from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
         let mut from = start.to_vec();
         if from.is_empty() {
             return None;

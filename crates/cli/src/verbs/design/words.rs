@@ -1,7 +1,7 @@
 //! A design in words.
 
 use dashpot_analysis::Missing;
-use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Requirement, Side};
+use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Lost, Requirement, Side};
 use dashpot_units::percent;
 
 use super::{
@@ -98,7 +98,12 @@ pub(super) fn missing(answer: &Answer, best: &Design) -> Vec<String> {
     let others = (others > 0).then(|| {
         format!("designs of {} besides, see the object of `--json`", counted(others, "choice"))
     });
-    of_best.into_iter().chain(others).collect()
+    let Lost { cut, .. } = best.lost;
+    let cut = (cut > 0).then(|| {
+        let starts = best.search.starts;
+        format!("given up: searches that took too many designs, {cut} times, from {starts} starts")
+    });
+    of_best.into_iter().chain(others).chain(cut).collect()
 }
 
 pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
@@ -139,8 +144,9 @@ pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
         Some(own) if !own.is_enough() => Line {
             label: if open == 0 { "NONE" } else { "UNDECIDED" },
             text: format!(
-                "no design was found that keeps everything with {}; the nearest has {name} {least}{may}",
-                percent(own.wanted, FEW)
+                "no design was found that keeps everything with {}; the nearest has {name} {least}{}",
+                percent(own.wanted, FEW),
+                if open == 0 { "" } else { "; scattered designs that could not be evaluated may" }
             ),
         },
         _ if open > 0 => Line {

@@ -5,6 +5,7 @@ use std::{num::NonZero, thread::available_parallelism};
 use clap::Args;
 use dashpot_analysis::{
     Band, Judged, Odds, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
+    Unevaluated,
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch, columns, sweep},
 };
 use dashpot_plot::Table;
@@ -20,6 +21,7 @@ use crate::{
     error::CliError,
     input::load,
     numbers::{self, MOST_DIGITS, Unit, rounded},
+    unevaluated,
     varied::messages,
 };
 
@@ -176,11 +178,16 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
         sources(&own.sources),
         designs(own.designs, own.seed)
     );
-    let unsolved = own.why.as_ref().map(|why| {
-        format!("{} of the designs could not be solved, the first because {why}", own.unsolved)
-    });
-    let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text)).chain(unsolved);
+    let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text));
     texts.map(|text| Line { label: "scatter", text }).collect()
+}
+
+/// Which designs of the sample have no solution; measures that single ones lack are told by their bands.
+pub(super) fn missing(run: &RunReport) -> Vec<String> {
+    let Some(own) = &run.scatter else { return Vec::new() };
+    let causes = own.unsolved().cloned().collect();
+    let all = Unevaluated { causes, ..own.unevaluated.clone() };
+    unevaluated::sentences(&all, "design", |_| String::new())
 }
 
 /// The numbers that were drawn, those by themselves and those together.
