@@ -80,6 +80,19 @@ fn an_optimum_is_claimed_only_over_what_was_evaluated() {
         "{shown}"
     );
     assert_eq!(labels(&shown), ["UNDECIDED", "PASS"], "{shown}");
+    // Where that design does not keep its limit, none is beside it to begin a search from.
+    let low = [
+        "--vary",
+        "T=8..80 mm",
+        "--least",
+        "T",
+        "--limit",
+        "head.peak-acceleration<=20 g",
+        "--sample",
+        "40",
+    ];
+    let (status, own) = object(&[&["design", &path][..], &low].concat());
+    assert_eq!((status, &own["claimed"], &own["feasible"]), (0, &false.into(), &false.into()));
     // With both of them one number, the optimum is that of single runs.
     let one = TWO_THICKNESSES.replace("thickness = \"30 mm\"", "thickness = \"T\"");
     let (_folder, path) = written(&one);

@@ -21,6 +21,8 @@ pub enum CauseKind {
     Run,
     /// A measure has no value.
     NoValue,
+    /// A measure may still grow where its run ends.
+    Cut,
     /// Something is pressed beyond what is known of it, and its force is extrapolated.
     Beyond,
 }
@@ -71,6 +73,12 @@ impl Cause {
         let message =
             measure.map_or("it is not reported".to_owned(), |own| Note::joined(&own.notes));
         Self { kind: CauseKind::NoValue, of: key.to_owned(), message }
+    }
+
+    /// The measure with this key may still grow where its run ends.
+    pub fn cut(key: &str) -> Self {
+        let message = "the run ends before it is whole: make `duration` longer".to_owned();
+        Self { kind: CauseKind::Cut, of: key.to_owned(), message }
     }
 
     /// What this element is pressed beyond.

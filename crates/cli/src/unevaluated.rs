@@ -17,6 +17,7 @@ pub(crate) fn sentences(
         let what = match cause.kind {
             CauseKind::Scene => "no valid scene".to_owned(),
             CauseKind::NoValue => format!("no value of {of}"),
+            CauseKind::Cut => format!("a value of {of} that may still grow"),
             CauseKind::Beyond => format!("{of} pressed beyond what is known of it"),
             _ => "no solution".to_owned(),
         };

@@ -236,7 +236,7 @@ impl Drop {
             "[materials]\nfoam = {{ {law} }}\n[nodes]\nparcel = {{ mass = {mass:e}, drop = \"{height:e} m\" }}\n[elements]\n\
              pad = {{ between = [\"parcel\", \"ground\"], material = \"foam\", thickness = \"{thickness:e} m\", area = \"{area:e} m^2\" }}\n\
              [effects]\ngravity = {{}}\nseparation.pad = {{}}\n{limits}[run]\nduration = \"{} ms\"\n",
-            10.0 * 1e3 * thickness / (2.0 * G0 * height).sqrt()
+            1e3 * ((2.0 * height / G0).sqrt() + 10.0 * thickness / (2.0 * G0 * height).sqrt())
         )
     }
 }

@@ -1,7 +1,7 @@
 //! What designs come to: their measures, and how far pads and laws are pressed in parts of their thickness or range.
 
 use dashpot_analysis::{
-    Bound, Cause, Limit, MeasureReport, RunReport, Solve, SolveSettings,
+    Bound, Cause, Judgement, Limit, MeasureReport, RunReport, Solve, SolveSettings,
     sweep::{PoseAt, ScenePoint, columns},
 };
 
@@ -159,7 +159,7 @@ impl<'p> Evaluator<'p> {
             let run = solved(&self.point(test, values).map_err(cause)?)?;
             own.values.extend(self.required_of(test, &run, values)?);
             if let Aim::Measure(key) = self.aim {
-                own.aims.push(value(&run, key)?);
+                own.aims.push(whole(&run, key)?);
             }
         }
         match self.aim {
@@ -185,7 +185,7 @@ impl<'p> Evaluator<'p> {
         let reached = reaches(run);
         let of_test = self.required.iter().filter(|own| own.test == test);
         let each = of_test.map(|own| match &own.what {
-            Requirement::Limit(limit) => value(run, &limit.key),
+            Requirement::Limit(limit) => judged(run, limit),
             Requirement::Depth(name, of) => {
                 let is_pad = |of: DepthOf| of == DepthOf::Thickness;
                 let found =
@@ -193,7 +193,7 @@ impl<'p> Evaluator<'p> {
                 let known = found.filter(|own| own.2.is_finite());
                 known.map(|own| own.2).ok_or_else(|| Cause::no_value(name, None))
             }
-            Requirement::Ceiling(Aim::Measure(key), _) => value(run, key),
+            Requirement::Ceiling(Aim::Measure(key), _) => whole(run, key),
             Requirement::Ceiling(Aim::Number(at), _) => Ok(values[*at]),
             Requirement::Ceiling(Aim::Given(own), _) => Ok(*own),
         });
@@ -248,6 +248,23 @@ fn value(run: &RunReport, key: &str) -> Result<f64, Cause> {
     let infinite = measure.is_some_and(MeasureReport::is_infinite).then_some(f64::INFINITY);
     let found = measure.and_then(|own| own.value).or(infinite);
     found.ok_or_else(|| Cause::no_value(key, measure))
+}
+
+/// The same where it does not grow any more.
+fn whole(run: &RunReport, key: &str) -> Result<f64, Cause> {
+    let is_cut = run.measure(key).is_some_and(|own| run.is_so_far(own));
+    if is_cut { Err(Cause::cut(key)) } else { value(run, key) }
+}
+
+/// The same of what is limited: what exceeds its limit already does so whatever comes.
+fn judged(run: &RunReport, limit: &Limit) -> Result<f64, Cause> {
+    let found = value(run, &limit.key)?;
+    let is_exceeded = limit.bound.judge(found, None, false) == Judgement::Fail;
+    if is_exceeded && matches!(limit.bound, Bound::Max(_)) {
+        Ok(found)
+    } else {
+        whole(run, &limit.key)
+    }
 }
 
 /// How far each pad, and each law that ends, is pressed in parts of its thickness or its last point.

@@ -312,7 +312,10 @@ impl<'p> Search<'p> {
                     let excesses = self.excesses(&own, slack);
                     (own.aims, excesses)
                 }),
-                None => Default::default(),
+                None => {
+                    let none = |count| vec![f64::NAN; count];
+                    [(); 2].map(|()| (none(self.evaluator.aims()), none(slack.len())))
+                }
             };
             let slope = |one: &[f64], other: &[f64]| {
                 one.iter().zip(other).map(|(one, other)| (other - one) / width).collect()

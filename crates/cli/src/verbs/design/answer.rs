@@ -1,6 +1,6 @@
 //! What a search has found, for people and for programs.
 
-use dashpot_analysis::{Judged, RunReport};
+use dashpot_analysis::{Judged, Reason, RunReport};
 use dashpot_design::optimum::{Aim, Design, Kept, Looked, Requirement};
 use dashpot_scene::Scene;
 use serde::Serialize;
@@ -86,6 +86,21 @@ impl Answer {
             },
         };
         self.found.iter().map(open).sum()
+    }
+
+    /// The limits of which it is not known whether the best keeps them, for another reason than scatter.
+    pub(super) fn undecided(&self) -> Vec<&str> {
+        let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
+        let all = runs
+            .flat_map(RunReport::judged)
+            .filter(|own| own.judgement.reason().is_some_and(|own| own != Reason::Scatter));
+        list(all.map(|own| own.limit.key.as_str()))
+    }
+
+    /// Whether the answer is claimed: nothing that could not be evaluated, or is not known of the best, can change it.
+    pub(super) fn is_claimed(&self) -> bool {
+        let is_feasible = self.best().is_some_and(|own| own.1.is_feasible);
+        self.open() == 0 && !(is_feasible && !self.undecided().is_empty())
     }
 
     /// The scene with the best.
@@ -263,7 +278,7 @@ impl Study for Answer {
         object! {
             dashpot: VERSION,
             unevaluated: design.map(|own| &own.lost.unevaluated),
-            claimed: self.open() == 0,
+            claimed: self.is_claimed(),
             open: self.open(),
             parameters: best.map(|(choice, own)| parameters(&self.asked, choice, &own.values)),
             least: self.asked.least.name(&self.asked),

@@ -221,7 +221,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     scenes::print_all_notes(&scenes);
     let answer =
         Answer { scene, asked: asked.clone(), found, front, floors, texts, slices, settings };
-    let is_kept = is_kept && answer.open() == 0;
+    let is_kept = is_kept && answer.is_claimed();
     emit(&answer, arguments.json, folder, terminal)?;
     if let Some(file) = file {
         file.write(answer.text(), |path| format!("wrote {}", path.display()))?;

@@ -155,6 +155,13 @@ pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
                 "{name} {least} keeps everything, the least of what was evaluated{may} have less"
             ),
         },
+        _ if !answer.is_claimed() => Line {
+            label: "UNDECIDED",
+            text: format!(
+                "{name} {least} is the least found; whether it keeps {} is not known",
+                answer.undecided().join(" and ")
+            ),
+        },
         own => {
             let with = own.map_or(String::new(), |own| {
                 format!(" with a probability of {}", percent(own.wanted, FEW))
@@ -319,7 +326,7 @@ fn searched(answer: &Answer, best: &Design) -> String {
     };
     let feasible = format!("{missing}{} of them keep everything", own.feasible);
     let agree = format!("{} of {} searches from the best end here", own.agree, own.starts);
-    let is_told = own.is_grid && best.is_feasible && answer.open() == 0;
+    let is_told = own.is_grid && best.is_feasible && answer.is_claimed();
     let better = if is_told { ", none of them better" } else { "" };
     format!("{spread}, {feasible}{better}; {agree}; {} solved", counted(own.solved, "design"))
 }
