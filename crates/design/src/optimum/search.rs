@@ -307,16 +307,11 @@ impl<'p> Search<'p> {
             let [below, above] = self.beside(unknowns, at);
             let width = above.0 - below.0;
             let sides = below.1.zip(above.1);
-            let [(aims, excesses), other] = match sides {
-                Some((below, above)) => [below, above].map(|own| {
-                    let excesses = self.excesses(&own, slack);
-                    (own.aims, excesses)
-                }),
-                None => {
-                    let none = |count| vec![f64::NAN; count];
-                    [(); 2].map(|()| (none(self.evaluator.aims()), none(slack.len())))
-                }
-            };
+            let of = |own: Evaluated| (own.aims.clone(), self.excesses(&own, slack));
+            let none = |count| vec![f64::NAN; count];
+            let nothing = || [(); 2].map(|()| (none(self.evaluator.aims()), none(slack.len())));
+            let [(aims, excesses), other] =
+                sides.map_or_else(nothing, |(below, above)| [below, above].map(of));
             let slope = |one: &[f64], other: &[f64]| {
                 one.iter().zip(other).map(|(one, other)| (other - one) / width).collect()
             };

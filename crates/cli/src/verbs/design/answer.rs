@@ -99,8 +99,8 @@ impl Answer {
 
     /// Whether the answer is claimed: nothing that could not be evaluated, or is not known of the best, can change it.
     pub(super) fn is_claimed(&self) -> bool {
-        let is_feasible = self.best().is_some_and(|own| own.1.is_feasible);
-        self.open() == 0 && !(is_feasible && !self.undecided().is_empty())
+        let has_none = self.best().is_none_or(|own| !own.1.is_feasible);
+        self.open() == 0 && (has_none || self.undecided().is_empty())
     }
 
     /// The scene with the best.
