@@ -12,6 +12,7 @@ mod auto;
 mod bad_records;
 mod calibration;
 mod campaign;
+mod claims;
 mod cli;
 mod cli_models;
 mod closed_forms;

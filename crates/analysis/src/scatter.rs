@@ -4,13 +4,12 @@ use std::slice;
 
 use serde::Serialize;
 
-use crate::{
-    Judgement, Limit, Reason,
-    sweep::{Gap, SweepReport},
-};
+use crate::{Judgement, Limit, Missing, Reason, Unevaluated, sweep::SweepReport};
 
 /// Half of the part of a sample that its 95 % range leaves out.
 const TAIL: f64 = 0.025;
+/// The part of the designs that has to keep a limit, where nothing else is asked for.
+const WANTED: f64 = 0.95;
 /// Standard deviations of the normal distribution within which 95 % lie.
 const WITHIN: f64 = 1.959_963_984_540_054;
 
@@ -55,9 +54,8 @@ pub struct Band {
     pub high: Option<f64>,
     /// Designs that have no value.
     pub without: usize,
-    /// Designs in all.
-    #[serde(skip)]
-    designs: usize,
+    /// Designs in all; the band is that of the others.
+    pub designs: usize,
 }
 
 /// How often a limit is kept.
@@ -89,6 +87,8 @@ pub struct Odds {
 pub struct ScatterReport {
     /// The numbers with scatter, in the order of the scene.
     pub sources: Vec<ScatterSource>,
+    /// The part of the designs that has to keep a limit for it to pass, from 0 to 1.
+    pub wanted: f64,
     /// How many designs were drawn.
     pub designs: usize,
     /// What they were drawn with.
@@ -101,10 +101,8 @@ pub struct ScatterReport {
     pub all_limits: Option<Odds>,
     /// How many of the designs were instantiated of one compiled form.
     pub instantiated: usize,
-    /// How many could not be solved.
-    pub unsolved: usize,
-    /// Why the first of those could not.
-    pub why: Option<String>,
+    /// Designs that could not be evaluated, or lack a measure.
+    pub unevaluated: Unevaluated,
 }
 
 impl Band {
@@ -127,6 +125,11 @@ impl Band {
             without: all.len() - known.len(),
             designs: all.len(),
         }
+    }
+
+    /// The part of the designs that have a value, from 0 to 1: those of which the band is.
+    pub fn share(&self) -> f64 {
+        (self.designs - self.without) as f64 / self.designs.max(1) as f64
     }
 
     /// The standard error of the mean, of independent designs; that of a Latin hypercube is smaller.
@@ -224,19 +227,22 @@ impl ScatterReport {
                 outside: count(Reason::Outside),
             }
         };
-        let unsolved = || sweep.gaps.iter().filter(|gap| gap.column.is_none());
-        let why = |gap: &Gap| gap.reason.clone();
         Self {
             sources,
+            wanted: WANTED,
             designs: sweep.points(),
             seed,
             bands: bands.collect(),
             limits: sweep.limits.iter().zip(&all).map(chance).collect(),
             all_limits: (all.len() > 1).then(|| Odds::of(&all)),
             instantiated: sweep.instantiated,
-            unsolved: unsolved().count(),
-            why: unsolved().next().map(why),
+            unevaluated: sweep.unevaluated(),
         }
+    }
+
+    /// Designs without a solution, by their causes.
+    pub fn unsolved(&self) -> impl Iterator<Item = &Missing> {
+        self.unevaluated.causes.iter().filter(|own| own.cause.of.is_empty())
     }
 
     /// The band of the measure with this key.

@@ -26,6 +26,7 @@ mod section;
 mod sketch;
 mod terminal;
 mod text;
+mod unevaluated;
 mod varied;
 mod verbs;
 

@@ -1,6 +1,6 @@
 //! Work that threads share, and what a part of a sample stays within.
 
-use std::thread;
+use std::{panic, thread};
 
 /// Does the same to all of these by so many threads, in their order.
 pub(crate) fn shared<T: Sync, U: Send>(
@@ -15,7 +15,11 @@ pub(crate) fn shared<T: Sync, U: Send>(
     thread::scope(|scope| {
         let work = |part| scope.spawn(move || <[T]>::iter(part).map(one).collect::<Vec<_>>());
         let parts: Vec<_> = all.chunks(each).map(work).collect();
-        parts.into_iter().flat_map(|own| own.join().unwrap_or_default()).collect()
+        // What is missing would stand as if it had never been asked for.
+        let joined = |own: thread::ScopedJoinHandle<'_, Vec<U>>| {
+            own.join().unwrap_or_else(|fault| panic::resume_unwind(fault))
+        };
+        parts.into_iter().flat_map(joined).collect()
     })
 }
 

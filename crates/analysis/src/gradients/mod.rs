@@ -20,7 +20,7 @@ use self::{
     neighbours::{Neighbour, neighbours},
 };
 use crate::{
-    Choice, RunReport, Solve, SolveSettings,
+    Choice, RunError, RunReport, Solve, SolveSettings,
     sweep::{ScenePoint, SweepError, columns},
 };
 
@@ -32,8 +32,12 @@ const EXACT_STEPS: [f64; 2] = [3e-5, 5e-6];
 /// The largest and the least first step of other methods.
 const WIDEST: f64 = 1e-2;
 const NARROWEST: f64 = 1e-3;
-/// The tolerance of solutions next to each other, in parts of that of the run.
-const TIGHTER: f64 = 1e-3;
+/// Tolerances of solutions next to each other, in parts of that of the run: the first at which one of them takes no more
+/// than so many times the work of the run.
+const TIGHTER: [f64; 3] = [1e-3, 1e-2, 1e-1];
+const MOST_WORK: u64 = 20;
+/// So much work is always allowed, some 0.1 s.
+const LEAST_WORK: u64 = 3_000_000;
 /// The tightest tolerance there is.
 const TIGHTEST: f64 = 1e-13;
 /// Errors of stepping methods in parts of their tolerance.
@@ -49,13 +53,15 @@ struct Plan {
 }
 
 impl Plan {
-    /// As the run was, but once and at a tighter tolerance.
-    fn of(settings: &SolveSettings, run: &RunReport) -> Self {
-        let rtol = run.solver.rtol.map(|rtol| (TIGHTER * rtol).max(TIGHTEST));
+    /// As the run was, but once and at a tolerance that is so many times tighter.
+    fn of(settings: &SolveSettings, run: &RunReport, tighter: f64) -> Self {
+        let rtol = run.solver.rtol.map(|rtol| (tighter * rtol).max(TIGHTEST));
         // What is chosen for a run may be given up beside it: other methods are chosen there anew.
         let method = if rtol.is_none() { Choice::named(run.solver.method).ok() } else { None };
         let method = method.unwrap_or_else(|| settings.method.clone());
-        let settings = SolveSettings { method, rtol, estimate: false, ..settings.clone() };
+        let most = MOST_WORK.saturating_mul(run.solver.work).max(LEAST_WORK);
+        let budget = settings.budget.min(most);
+        let settings = SolveSettings { method, rtol, estimate: false, budget, ..settings.clone() };
         let steps = rtol.map_or(EXACT_STEPS, |rtol| {
             let step = (ERRORS_PER_TOLERANCE * rtol).cbrt().clamp(NARROWEST, WIDEST);
             [step, 0.25 * step]
@@ -118,14 +124,20 @@ pub fn gradients(
     let columns = columns.into_iter().filter(|own| !own.is_share);
     let keys: Vec<String> = columns.map(|own| own.key).collect();
     let run = point.network.solve_with(&point.settings)?;
-    let plan = Plan::of(&point.settings, &run);
     let own = Neighbour::of(&run, &keys);
-    let here = if plan.is_exact {
-        own.clone()
-    } else {
-        let again = plan.ask(point);
-        Neighbour::of(&again.network.solve_with(&again.settings)?, &keys)
+    let planned = |tighter: f64| {
+        let plan = Plan::of(&point.settings, &run, tighter);
+        if plan.is_exact {
+            return Ok((plan, own.clone()));
+        }
+        let again = plan.ask(point.clone());
+        let here = again.network.solve_with(&again.settings)?;
+        Ok::<_, RunError>((plan, Neighbour::of(&here, &keys)))
     };
+    let [first, others @ ..] = TIGHTER;
+    let (plan, here) = others
+        .into_iter()
+        .fold(planned(first), |found, tighter| found.or_else(|_| planned(tighter)))?;
     let first = 1 + run.solver.solves_for_error + usize::from(!plan.is_exact);
     let is_sharp = plan.is_exact && run.segmentation.is_none();
     let search = Search { numbers, keys: &keys, plan, pose, threads, run: own, here, is_sharp };

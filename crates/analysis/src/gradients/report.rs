@@ -3,7 +3,7 @@
 use serde::Serialize;
 use thiserror::Error;
 
-use crate::{Event, EventReport, RunReport};
+use crate::{Cause, CauseKind, Event, EventReport, RunReport, Unevaluated};
 
 /// A number of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -112,6 +112,26 @@ pub struct GradientReport {
 }
 
 impl GradientReport {
+    /// The derivatives that have no value as a run, or one beside it, has none; each by its number in the report.
+    pub fn unevaluated(&self) -> Unevaluated {
+        let rows = self.measures.iter().chain(&self.events);
+        let all = rows.flat_map(|row| row.derivatives.iter().map(|own| (&row.key, own)));
+        let causes: Vec<(Cause, usize)> = all
+            .enumerate()
+            .filter_map(|(at, (key, own))| {
+                let (NoDerivative::NoValue { reason } | NoDerivative::NoNeighbour { reason }) =
+                    own.as_ref().err()?
+                else {
+                    return None;
+                };
+                let (kind, of) = (CauseKind::NoValue, key.clone());
+                Some((Cause { kind, of, message: reason.clone() }, at))
+            })
+            .collect();
+        let count = self.numbers.len() * (self.measures.len() + self.events.len());
+        Unevaluated::at(count, causes.iter().map(|own| (&own.0, own.1)))
+    }
+
     pub(super) fn made(
         run: &RunReport,
         (keys, numbers): (&[String], &[Number]),

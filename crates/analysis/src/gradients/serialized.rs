@@ -8,6 +8,7 @@ use crate::report::serialized::serialized;
 serialized!(GradientReport, own => {
     "method" => own.method,
     "solutions" => own.solutions,
+    "unevaluated" => own.unevaluated(),
     "numbers" => own.numbers,
     "measures" => own.measures.iter().map(|one| Row(own, one)).collect::<Vec<_>>(),
     "events" => own.events.iter().map(|one| Row(own, one)).collect::<Vec<_>>(),

@@ -60,10 +60,12 @@ pub enum Reason {
     OtherAxes,
     /// It keeps the limit, but the record is clipped: the measure was larger.
     Clipped,
+    /// It keeps the limit at the means of numbers with scatter, but too few of the designs do.
+    Scatter,
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `harder-outside`, `other-axes` or `clipped`.
+    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `harder-outside`, `other-axes`, `clipped` or `scatter`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
@@ -73,6 +75,7 @@ impl Reason {
             Self::Outside => "harder-outside",
             Self::OtherAxes => "other-axes",
             Self::Clipped => "clipped",
+            Self::Scatter => "scatter",
         }
     }
 }

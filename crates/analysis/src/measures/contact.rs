@@ -7,6 +7,9 @@ use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 use super::{Family, MeasureKind, Reading};
 use crate::{Note, Solution, VelocityJump, impact::interval::Contact};
 
+/// Ends that meet with less than this part of the largest rate of their deformation meet without speed: what is left is
+/// rounding.
+pub(crate) const NO_APPROACH: f64 = 1e-9;
 /// Part of a time within which the end of a run is at that time.
 const AT_ONCE: f64 = 1e-9;
 
@@ -74,6 +77,8 @@ parameters! {
     /// Of an element that is struck through a face with mass they are the speeds of what strikes the face
     /// and of the other end, before the first touch and at the end of the impact.
     ///
+    /// It is undefined where the ends meet with less than 10⁻⁹ of the largest rate of the deformation: a sum of roundings.
+    ///
     /// A massless face has the speed of what strikes it, from the touch until it is let go. Where masses
     /// meet, the speeds are those before and after the impulse; an impact of masses that stay together
     /// has ended when they part, without speed.
@@ -116,7 +121,8 @@ impl MeasureKind for CoefficientOfRestitution {
         } else {
             rate.value(span.from)
         };
-        if meeting.abs() <= rate.noise {
+        if meeting.abs() <= rate.noise.max(NO_APPROACH * rate.absolute_maximum(span.window()).value)
+        {
             return Err(Note::NoApproach);
         }
         let parting = Reading::end_value(&rate, &span);

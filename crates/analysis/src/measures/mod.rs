@@ -37,6 +37,7 @@ use dashpot_network::{
 };
 pub use dashpot_units::STANDARD_GRAVITY;
 
+pub(crate) use self::contact::NO_APPROACH;
 pub use self::{
     contact::{CoefficientOfRestitution, ContactTime},
     energy::{Energy, EnergyAtEnd},

@@ -6,7 +6,7 @@ use dashpot_network::{
 };
 
 use super::{powers::power_of, stepped::Course};
-use crate::measures::{STANDARD_GRAVITY, hic_search::optimum, selection::Selected};
+use crate::measures::{NO_APPROACH, STANDARD_GRAVITY, hic_search::optimum, selection::Selected};
 
 /// Which integrals are wanted.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -145,7 +145,11 @@ impl Scales {
             Shown::Share => deepest.value / thickness,
             Shown::Acceleration => strongest.value * STANDARD_GRAVITY / unit,
             Shown::ContactTime => release * time,
-            Shown::Restitution => -speed.value(*release) / speed.value(0.0),
+            Shown::Restitution => {
+                let meeting = speed.value(0.0);
+                let least = NO_APPROACH * speed.absolute_maximum(impact).value;
+                if meeting.abs() > least { -speed.value(*release) / meeting } else { f64::NAN }
+            }
             Shown::Impulse => force.integral(impact) * time,
             Shown::Work | Shown::WorkAtEnd => force.integral_of_product(speed, impact),
             Shown::Severity => power_of(force, *release, exponent) * time / unit.powf(exponent),

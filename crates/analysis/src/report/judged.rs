@@ -108,7 +108,12 @@ impl RunReport {
         let sampled = if limit.of_mean { band() } else { None };
         let judged = Judged { limit, measure, judgement, chance, sampled };
         let judgement = match sampled {
-            None => judgement.doubted(self.warnings.iter().find_map(|own| own.doubt(limit, false))),
+            None => {
+                let doubt = self.warnings.iter().find_map(|own| own.doubt(limit, false));
+                let wanted = self.scatter.as_ref().map_or(0.0, |own| own.wanted);
+                let is_rare = chance.is_some_and(|own| own.odds.share() < wanted);
+                judgement.doubted(doubt.or(is_rare.then_some(Reason::Scatter)))
+            }
             Some(_) => judged.of_sample().doubted(chance.and_then(Chance::doubt)),
         };
         Judged { judgement, ..judged }

@@ -50,14 +50,16 @@ impl Serialize for RunReport {
 
 serialized!(ScatterReport, own => {
     "designs" => own.designs,
+    "wanted" => own.wanted,
     "seed" => own.seed,
     "sources" => own.sources,
     "measures" => Pairs(own.bands.iter().map(|own| (&own.key, own)).collect()),
     "limits" => own.limits,
     "all_limits" => own.all_limits,
     "instantiated" => own.instantiated,
-    "unsolved" => own.unsolved,
-    "why" => own.why,
+    "unevaluated" => own.unevaluated,
+    "unsolved" => own.unsolved().map(|own| own.count).sum::<usize>(),
+    "why" => own.unsolved().next().map(|own| &own.cause.message),
 });
 
 serialized!(Chance, own => {

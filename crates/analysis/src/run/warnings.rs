@@ -409,6 +409,7 @@ impl Beyond {
             excess: deepest.value - last,
             time: deepest.time,
             point: last,
+            at_equator: part.element.ends_at_equator(),
         });
         // A law that begins flat is meant to have no more force before.
         let [before, there] = [longest.value, first].map(|at| part.element.force(at, 0.0));
@@ -421,6 +422,7 @@ impl Beyond {
             excess: first - longest.value,
             time: longest.time,
             point: first,
+            at_equator: false,
         });
         pressed.into_iter().chain(stretched).collect()
     }

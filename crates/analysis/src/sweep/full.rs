@@ -5,7 +5,7 @@ use std::{ops::ControlFlow, sync::Arc};
 use dashpot_dae::methods;
 
 use super::{Column, Gap, Grid, Pose, instantiated::Plan, parallel::share, stamper::Stamper};
-use crate::{Choice, RunReport, Solve, SolveSettings, partial::spread};
+use crate::{Cause, Choice, RunReport, Solve, SolveSettings, partial::spread};
 
 /// What is to be said of the values of a point.
 #[derive(Debug, Default)]
@@ -30,10 +30,10 @@ impl Full<'_> {
         &self,
         point: usize,
         change: impl Fn(&mut SolveSettings),
-    ) -> Result<RunReport, String> {
-        let mut scene_point = (self.pose)(&self.grid.places(point))?;
+    ) -> Result<RunReport, Cause> {
+        let mut scene_point = (self.pose)(&self.grid.places(point)).map_err(Cause::scene)?;
         change(&mut scene_point.settings);
-        scene_point.network.solve_with(&scene_point.settings).map_err(|error| error.to_string())
+        Ok(scene_point.network.solve_with(&scene_point.settings)?)
     }
 
     /// Solves a point as it is asked for but for a `change`, and writes its columns and their errors, or notes why
@@ -53,8 +53,8 @@ impl Full<'_> {
                 self.read(&report, point, values, errors, flaws);
                 Some(report)
             }
-            Err(reason) => {
-                flaws.gaps.push(Gap { point, column: None, reason, is_infinite: false });
+            Err(cause) => {
+                flaws.gaps.push(Gap { point, column: None, cause, is_infinite: false });
                 None
             }
         }
@@ -70,9 +70,10 @@ impl Full<'_> {
         flaws: &mut Flaws,
     ) {
         for (at, column) in self.columns.iter().enumerate() {
-            let gap = |reason, is_infinite| Gap { point, column: Some(at), reason, is_infinite };
+            let cause = |measure| Cause::no_value(&column.key, measure);
+            let gap = |cause, is_infinite| Gap { point, column: Some(at), cause, is_infinite };
             let Some(measure) = report.measure(&column.key) else {
-                flaws.gaps.push(gap("it is not reported at this point".to_owned(), false));
+                flaws.gaps.push(gap(cause(None), false));
                 continue;
             };
             let thickness =
@@ -83,8 +84,7 @@ impl Full<'_> {
                 errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
                 flaws.cut.extend(report.is_so_far(measure).then_some(at));
             } else {
-                let reason = measure.note().unwrap_or_default();
-                flaws.gaps.push(gap(reason, measure.is_infinite()));
+                flaws.gaps.push(gap(cause(Some(measure)), measure.is_infinite()));
             }
         }
     }

@@ -19,7 +19,7 @@ use super::{
     scene_point::{Figure, Impact, ScenePoint},
     sums::{Integrals, Recorder},
 };
-use crate::plain::shown::Wanted;
+use crate::{measures::NO_APPROACH, plain::shown::Wanted};
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
 const COARSE: f64 = 3.0;
@@ -262,10 +262,12 @@ impl<'p, const N: usize> Propagation<'p, N> {
         let noise = grown * size(self.scene_point.force, &self.most);
         let figure = |value: f64, error: f64| Figure { value, error };
         let speed: [f64; N] = self.looks.map(|look| look[4]);
-        let speed = grown * size(&speed, &self.most);
         let release_error = noise / self.fall + 4.0 * f64::EPSILON * release;
         let [parting, bend] = self.parting;
-        let restitution = -parting / self.meeting;
+        // Ends that meet without speed have none; a full run says so.
+        let is_met = self.meeting.abs() > NO_APPROACH * size(&speed, &self.most);
+        let restitution = if is_met { -parting / self.meeting } else { f64::NAN };
+        let speed = grown * size(&speed, &self.most);
         let moved = speed * (1.0 + restitution.abs()) + bend.abs() * release_error;
         let mut impact = Impact {
             force: figure(force.value, noise),

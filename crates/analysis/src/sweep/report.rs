@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::{Row, shards::Raised};
 use crate::{
-    Compression, Judgement, Limit, Reason, RunError, Through, Warning,
+    Cause, Compression, Judgement, Limit, Reason, RunError, Through, Unevaluated, Warning,
     partial::{Cost, Neglected, PutBack},
 };
 
@@ -31,7 +31,7 @@ pub struct Gap {
     /// The column; `None` where the whole point could not be solved.
     pub column: Option<usize>,
     /// Why.
-    pub reason: String,
+    pub cause: Cause,
     /// Whether the value is beyond all limits, as a peak is where speeds jump.
     pub is_infinite: bool,
 }
@@ -89,6 +89,14 @@ impl SweepReport {
     /// How many points there are.
     pub fn points(&self) -> usize {
         self.values.len() / self.columns.len().max(1)
+    }
+
+    /// What could not be evaluated, each place by its number and by none of its values; infinite values are known.
+    pub fn unevaluated(&self) -> Unevaluated {
+        let missing = || self.gaps.iter().filter(|own| !own.is_infinite);
+        let causes = missing().map(|own| (&own.cause, own.point));
+        let points: BTreeSet<usize> = missing().map(|own| own.point).collect();
+        Unevaluated { count: points.len(), ..Unevaluated::at(self.points(), causes) }
     }
 
     /// What is known of the limit at this place among [`limits`](Self::limits), at each point; `None` where

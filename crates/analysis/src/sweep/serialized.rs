@@ -12,6 +12,7 @@ use crate::{
 serialized!(SweepReport, own => {
     "measures" => own.columns.iter().enumerate().map(|(at, _)| Filled(own, at)).collect::<Vec<_>>(),
     "points" => own.points(),
+    "unevaluated" => own.unevaluated(),
     "instantiated" => own.instantiated,
     "estimated" => own.estimated,
     "checked" => own.checked,
@@ -77,5 +78,6 @@ struct Missing<'r>(&'r SweepReport, &'r Gap);
 serialized!(Missing<'_>, own => {
     "point" => own.1.point,
     "measure" => own.1.column.map(|at| &own.0.columns[at].key),
-    "reason" => own.1.reason,
+    "kind" => own.1.cause.kind,
+    "reason" => own.1.cause.message,
 });

@@ -202,8 +202,13 @@ pub(super) fn range(tests: &Tests<'_>) -> Result<Vec<f64>, NoCushion> {
             found = Some([low.min(least.stress), high.max(least.stress)]);
         }
     }
-    let reason = "none of them is within what is known of the cushion".to_owned();
-    let [low, high] = found.ok_or(NoCushion::NoStress { range: around, reason })?;
+    let none = || {
+        let missing = tests.missing.told(0);
+        let beyond = "none of them is within what is known of the cushion".to_owned();
+        let reason = missing.causes.into_iter().next().map_or(beyond, |own| own.cause.message);
+        NoCushion::NoStress { range: around, reason }
+    };
+    let [low, high] = found.ok_or_else(none)?;
     Ok(ratios([low / BELOW, high * ABOVE], USUAL).collect())
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_analysis::{
-    Band, MeasureReport, Solve, Warning,
+    Band, Cause, MeasureReport, Misses, RunReport, Solve, Warning,
     measures::{PeakAcceleration, PeakDeformation},
     sweep::{
         Column, Gap, Grid, Pose, ScenePoint, SweepOptions, SweepReport, Watch, columns, sweep,
@@ -56,6 +56,8 @@ pub(super) struct Tests<'t> {
     duration: f64,
     columns: Vec<Column>,
     probes: AtomicUsize,
+    /// Drops that could not be evaluated: height, thickness and static stress, and why.
+    pub(super) missing: Misses,
 }
 
 impl<'t> Tests<'t> {
@@ -77,6 +79,7 @@ impl<'t> Tests<'t> {
             duration,
             columns: Vec::new(),
             probes: AtomicUsize::new(0),
+            missing: Misses::default(),
         };
         let first = own.scene(asked.heights[0], asked.thicknesses[0], platen.stress());
         let first = first.map_err(NoCushion::NotPosed)?;
@@ -146,6 +149,11 @@ impl<'t> Tests<'t> {
         };
         let options = SweepOptions { threads: *threads, ..SweepOptions::default() };
         let report = self.swept(&grid, &pose, options, watch)?;
+        for gap in report.gaps.iter().filter(|own| !own.is_infinite) {
+            let [height, thickness, stress] = grid.places(gap.point)[..] else { continue };
+            let place = [heights[height], thicknesses[thickness], stresses[stress]];
+            self.missing.note(place.to_vec(), gap.cause.clone());
+        }
         let work = Work {
             points: grid.len(),
             instantiated: report.instantiated,
@@ -282,7 +290,14 @@ impl<'t> Tests<'t> {
             strain: f64::NAN,
             known: Known::Unsolved,
         };
-        let Ok(mut scene) = self.scene(height, thickness, stress) else { return unsolved };
+        let missed = |cause: Cause| {
+            self.missing.note(vec![height, thickness, stress], cause);
+            unsolved
+        };
+        let mut scene = match self.scene(height, thickness, stress) {
+            Ok(scene) => scene,
+            Err(message) => return missed(Cause::scene(message)),
+        };
         if rtol.is_some() {
             (scene.settings.rtol, scene.settings.estimate) = (rtol, false);
         }
@@ -291,29 +306,33 @@ impl<'t> Tests<'t> {
         let stops = stops.filter(|own| own.1.element == self.platen.pad);
         let stops: Vec<(usize, Option<f64>)> = stops.map(|own| (own.0, own.1.at)).collect();
         let gap = stops.iter().map(|own| own.1.unwrap_or(thickness)).reduce(f64::min);
-        let read = |network: &Network| {
-            let run = network.solve_with(&scene.settings).ok()?;
-            let value = |key: &str| {
-                let own = run.measure(key)?;
-                Some((own.value?, own.error.unwrap_or(f64::NAN)))
-            };
-            let (peak, error) = value(&self.peak_key()).unwrap_or((f64::NAN, f64::NAN));
-            let depth = value(&self.depth_key())?;
+        let read = |network: &Network| -> Result<_, Cause> {
+            let run = network.solve_with(&scene.settings)?;
+            let is_infinite = run.measure(&self.peak_key()).is_some_and(MeasureReport::is_infinite);
+            let (peak, error) =
+                if is_infinite { (f64::NAN, f64::NAN) } else { value(&run, &self.peak_key())? };
+            let depth = value(&run, &self.depth_key())?;
             let is_beyond = run.warnings.iter().any(Warning::is_beyond_known);
             let strain = depth.0 / thickness;
-            let is_infinite = run.measure(&self.peak_key()).is_some_and(MeasureReport::is_infinite);
             let stop = gap.map(|own| own / thickness);
             let known = known((peak, is_infinite), strain, stop, is_beyond);
             let reach = depth.0 + if depth.1.is_finite() { depth.1 } else { 0.0 };
-            Some((CushionPoint { stress, peak, error, strain, known }, reach))
+            Ok((CushionPoint { stress, peak, error, strain, known }, reach))
         };
         // A stop that is not met takes no force, and without it the drop is solved in fewer steps.
         let free = gap.and_then(|gap| {
             let details: Vec<Detail> = stops.iter().map(|own| Detail::Effect(own.0)).collect();
-            read(&scene.network.without(&details)).filter(|own| own.1 < gap)
+            read(&scene.network.without(&details)).ok().filter(|own| own.1 < gap)
         });
-        free.or_else(|| read(&scene.network)).map_or(unsolved, |own| own.0)
+        free.map_or_else(|| read(&scene.network), Ok).map_or_else(missed, |own| own.0)
     }
+}
+
+/// The value of a measure with its error, which is not a number where it is not known.
+fn value(run: &RunReport, key: &str) -> Result<(f64, f64), Cause> {
+    let own = run.measure(key);
+    let known = own.and_then(|own| Some((own.value?, own.error.unwrap_or(f64::NAN))));
+    known.ok_or_else(|| Cause::no_value(key, own))
 }
 
 /// Whether something is pressed further than is known of it at a point.

@@ -33,7 +33,7 @@ mod thinnest;
 #[cfg(test)]
 mod tests;
 
-use dashpot_analysis::{RunError, sweep::SweepError};
+use dashpot_analysis::{RunError, Unevaluated, sweep::SweepError};
 use dashpot_network::NetworkErrors;
 use thiserror::Error;
 
@@ -86,15 +86,19 @@ pub struct Cushion {
     pub creep: Vec<Creep>,
     /// The stress–energy method beside them; `None` of a single curve.
     pub stress_energy: Option<StressEnergy>,
+    /// What could not be evaluated, of the points of the curves and of drops between them; those have their height,
+    /// thickness and static stress.
+    pub unevaluated: Unevaluated,
     /// How it was solved.
     pub work: Work,
 }
 
 impl Cushion {
-    /// Whether a cushion keeps the limit from each height: over the whole range where there is one, else at any stress.
+    /// Whether a cushion keeps the limit from each height: over the whole range where there is one, and no thinner one is
+    /// left open; else at any stress.
     pub fn is_kept(&self) -> bool {
         if !self.thinnest.is_empty() {
-            return self.thinnest.iter().all(|own| own.over_all.is_ok());
+            return self.thinnest.iter().all(|own| own.over_all.is_ok() && !own.is_open);
         }
         self.of_heights().all(|own| own.iter().any(|own| own.passing.is_some()))
     }
@@ -289,5 +293,7 @@ pub fn cushion(
     };
     work.probes = tests.probes();
     let stress_energy = StressEnergy::of(&curves, dashpot_units::STANDARD_GRAVITY);
-    Ok(Cushion { platen: platen.clone(), curves, thinnest, creep, stress_energy, work })
+    let unevaluated = tests.missing.told(work.points + work.probes);
+    let platen = platen.clone();
+    Ok(Cushion { platen, curves, thinnest, creep, stress_energy, unevaluated, work })
 }

@@ -3,7 +3,7 @@
 use dashpot_numerics::extrema::maximum;
 
 use super::{
-    CushionPoint, Sure,
+    CushionPoint, Known, Sure,
     best::ratios,
     curves::Tests,
     edge::{edge, surely},
@@ -23,8 +23,16 @@ const STEPS: usize = 14;
 pub enum Unmet {
     /// The thickest one has this peak \[m/s²\] at this stress \[Pa\].
     Peak(f64, f64),
-    /// What is known of the thickest one ends below this stress \[Pa\].
-    Known(f64),
+    /// The peak of the thickest one at this stress \[Pa\] cannot be used, for this reason.
+    Known(f64, Known),
+}
+
+impl Unmet {
+    /// Whether it is certain that nothing will do: where a drop could not be evaluated, or leaves the range of a measured
+    /// law, that is not known.
+    pub fn is_certain(self) -> bool {
+        !matches!(self, Self::Known(_, Known::Unsolved | Known::BeyondLaw))
+    }
 }
 
 /// What keeps a limit over a range of static stresses, from one height.
@@ -37,6 +45,8 @@ pub struct Thinnest {
     pub over_all: Result<(f64, CushionPoint), Unmet>,
     /// Whether the thinnest thickness that was asked for already keeps it: a thinner one may as well.
     pub is_first: bool,
+    /// Whether a drop onto a thinner one could not be evaluated, so that it may keep it as well.
+    pub is_open: bool,
     /// The least volume for a weight, `t/σ` \[m³/N\], with its thickness \[m\] and stress \[Pa\] within the range, to a
     /// thousandth, where any keeps the limit.
     pub lightest: Option<[f64; 3]>,
@@ -56,6 +66,7 @@ pub(super) struct Question<'q> {
 struct Kept {
     thickness: f64,
     is_first: bool,
+    is_open: bool,
 }
 
 impl Question<'_> {
@@ -77,8 +88,9 @@ impl Question<'_> {
         let own = least.filter_map(|stress| volume(stress, NEAREST));
         let lightest = own.min_by(|one, other| one[0].total_cmp(&other[0]));
         let is_first = found.as_ref().is_ok_and(|own| own.0.is_first);
+        let is_open = found.as_ref().is_ok_and(|own| own.0.is_open);
         let over_all = found.map(|own| (own.0.thickness, own.1));
-        Thinnest { height, over_all, is_first, lightest, sure: None }
+        Thinnest { height, over_all, is_first, is_open, lightest, sure: None }
     }
 
     fn stresses(&self) -> impl Iterator<Item = f64> {
@@ -143,7 +155,8 @@ impl Drops<'_> {
                     let drop =
                         |own: &f64| self.question.tests.drop(self.height, kept.thickness, *own);
                     let worst = self.worst(stresses.iter().map(drop));
-                    return worst.map(|own| (kept, own)).ok_or(Unmet::Known(stresses[0]));
+                    let none = Unmet::Known(stresses[0], Known::Unsolved);
+                    return worst.map(|own| (kept, own)).ok_or(none);
                 }
             }
         }
@@ -165,15 +178,17 @@ impl Drops<'_> {
                 continue;
             };
             let nearest = nearest * thicknesses[thicknesses.len() - 1];
-            let [kept, _] = edge(with, own, nearest, excess);
+            let [kept, beyond] = edge(with, own, nearest, excess);
+            let is_unsolved = |own: &f64| self.rough(beyond.0, *own).known == Known::Unsolved;
+            let is_open = stresses.iter().any(is_unsolved);
             let held = |thickness: f64| {
                 let drop = |own: &f64| self.question.tests.drop(self.height, thickness, *own);
                 stresses.iter().map(drop).all(|own| self.excess(&own) <= 0.0)
             };
             let thickness = surely(kept.0, with.0, nearest, held);
-            return Ok(Kept { thickness, is_first: false });
+            return Ok(Kept { thickness, is_first: false, is_open });
         }
-        let first = last.map(|own| Kept { thickness: own.0, is_first: true });
+        let first = last.map(|own| Kept { thickness: own.0, is_first: true, is_open: false });
         first.ok_or_else(|| unmet(None, stresses[0]))
     }
 }
@@ -182,6 +197,7 @@ impl Drops<'_> {
 fn unmet(worst: Option<CushionPoint>, stress: f64) -> Unmet {
     match worst {
         Some(own) if own.is_usable() => Unmet::Peak(own.peak, own.stress),
-        own => Unmet::Known(own.map_or(stress, |own| own.stress)),
+        Some(own) => Unmet::Known(own.stress, own.known),
+        None => Unmet::Known(stress, Known::Unsolved),
     }
 }

@@ -1,7 +1,7 @@
 //! What designs come to: their measures, and how far pads and laws are pressed in parts of their thickness or range.
 
 use dashpot_analysis::{
-    Bound, Limit, RunReport, Solve, SolveSettings,
+    Bound, Cause, Judgement, Limit, MeasureReport, RunReport, Solve, SolveSettings,
     sweep::{PoseAt, ScenePoint, columns},
 };
 
@@ -28,6 +28,8 @@ pub enum DepthOf {
     Thickness,
     /// The range of a law, up to its last point.
     Law,
+    /// The radius of the round body that presses it, where its law ends.
+    Radius,
 }
 
 /// A requirement, and the test in which it has to be kept.
@@ -102,7 +104,7 @@ impl<'p> Evaluator<'p> {
     ) -> Result<Self, DesignError> {
         let mut own = Self { tests, aim, other, required: Vec::new() };
         for test in 0..tests.len() {
-            let point = own.point(test, at).map_err(DesignError::NotPosed)?;
+            let point = own.point(test, at)?;
             let limits = point.settings.limits.clone();
             let run = point.network.solve_with(&point.settings)?;
             let of_limits = limits.into_iter().map(Requirement::Limit);
@@ -139,9 +141,8 @@ impl<'p> Evaluator<'p> {
     }
 
     /// The same as it is differenced: without estimates of errors.
-    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, String> {
-        let point = self.asked(test, values).map_err(|error| error.to_string())?;
-        Ok(differenced(point))
+    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, DesignError> {
+        Ok(differenced(self.asked(test, values)?))
     }
 
     /// The run of a test with the errors that are asked for.
@@ -151,14 +152,14 @@ impl<'p> Evaluator<'p> {
         Ok(point.network.solve_with(&settings)?)
     }
 
-    /// What a design comes to; an error where a test cannot be solved.
-    pub(super) fn at(&self, values: &[f64]) -> Result<Evaluated, String> {
+    /// What a design comes to; why it has no answer where a test cannot be solved, or a measure has no value.
+    pub(super) fn at(&self, values: &[f64]) -> Result<Evaluated, Cause> {
         let mut own = Evaluated { aims: Vec::new(), values: Vec::new() };
         for test in 0..self.tests.len() {
-            let run = solved(&self.point(test, values)?)?;
-            own.values.extend(self.required_of(test, &run, values));
+            let run = solved(&self.point(test, values).map_err(cause)?)?;
+            own.values.extend(self.required_of(test, &run, values)?);
             if let Aim::Measure(key) = self.aim {
-                own.aims.push(value(&run, key));
+                own.aims.push(whole(&run, key)?);
             }
         }
         match self.aim {
@@ -175,25 +176,37 @@ impl<'p> Evaluator<'p> {
         test: usize,
         point: ScenePoint,
         values: &[f64],
-    ) -> Result<Vec<f64>, String> {
-        Ok(self.required_of(test, &solved(&differenced(point))?, values))
+    ) -> Result<Vec<f64>, Cause> {
+        self.required_of(test, &solved(&differenced(point))?, values)
     }
 
     /// What each requirement of a test comes to in its run.
-    fn required_of(&self, test: usize, run: &RunReport, values: &[f64]) -> Vec<f64> {
+    fn required_of(&self, test: usize, run: &RunReport, values: &[f64]) -> Result<Vec<f64>, Cause> {
         let reached = reaches(run);
         let of_test = self.required.iter().filter(|own| own.test == test);
         let each = of_test.map(|own| match &own.what {
-            Requirement::Limit(limit) => value(run, &limit.key),
+            Requirement::Limit(limit) => judged(run, limit),
             Requirement::Depth(name, of) => {
-                let found = reached.iter().find(|own| own.0 == *name && own.1 == *of);
-                found.map_or(f64::NAN, |own| own.2)
+                let is_pad = |of: DepthOf| of == DepthOf::Thickness;
+                let found =
+                    reached.iter().find(|own| own.0 == *name && is_pad(own.1) == is_pad(*of));
+                let known = found.filter(|own| own.2.is_finite());
+                known.map(|own| own.2).ok_or_else(|| Cause::no_value(name, None))
             }
-            Requirement::Ceiling(Aim::Measure(key), _) => value(run, key),
-            Requirement::Ceiling(Aim::Number(at), _) => values[*at],
-            Requirement::Ceiling(Aim::Given(own), _) => *own,
+            Requirement::Ceiling(Aim::Measure(key), _) => whole(run, key),
+            Requirement::Ceiling(Aim::Number(at), _) => Ok(values[*at]),
+            Requirement::Ceiling(Aim::Given(own), _) => Ok(*own),
         });
         each.collect()
+    }
+
+    /// What the aim of a design that was not evaluated may be at least.
+    pub(super) fn least_aim(&self, values: &[f64]) -> f64 {
+        match self.aim {
+            Aim::Number(at) => values[*at],
+            Aim::Given(value) => *value,
+            Aim::Measure(_) => f64::NEG_INFINITY,
+        }
     }
 
     /// How many aims a design has.
@@ -217,12 +230,41 @@ fn differenced(mut point: ScenePoint) -> ScenePoint {
     point
 }
 
-fn solved(point: &ScenePoint) -> Result<RunReport, String> {
-    point.network.solve_with(&point.settings).map_err(|error| error.to_string())
+fn solved(point: &ScenePoint) -> Result<RunReport, Cause> {
+    Ok(point.network.solve_with(&point.settings)?)
 }
 
-fn value(run: &RunReport, key: &str) -> f64 {
-    run.measure(key).and_then(|own| own.value).unwrap_or(f64::NAN)
+/// Why there is no scene.
+fn cause(error: DesignError) -> Cause {
+    match error {
+        DesignError::Run(error) => error.into(),
+        error => Cause::scene(error.to_string()),
+    }
+}
+
+/// The value of a measure; infinite where it is, as a peak is where speeds jump.
+fn value(run: &RunReport, key: &str) -> Result<f64, Cause> {
+    let measure = run.measure(key);
+    let infinite = measure.is_some_and(MeasureReport::is_infinite).then_some(f64::INFINITY);
+    let found = measure.and_then(|own| own.value).or(infinite);
+    found.ok_or_else(|| Cause::no_value(key, measure))
+}
+
+/// The same where it does not grow any more.
+fn whole(run: &RunReport, key: &str) -> Result<f64, Cause> {
+    let is_cut = run.measure(key).is_some_and(|own| run.is_so_far(own));
+    if is_cut { Err(Cause::cut(key)) } else { value(run, key) }
+}
+
+/// The same of what is limited: what exceeds its limit already does so whatever comes.
+fn judged(run: &RunReport, limit: &Limit) -> Result<f64, Cause> {
+    let found = value(run, &limit.key)?;
+    let is_exceeded = limit.bound.judge(found, None, false) == Judgement::Fail;
+    if is_exceeded && matches!(limit.bound, Bound::Max(_)) {
+        Ok(found)
+    } else {
+        whole(run, &limit.key)
+    }
 }
 
 /// How far each pad, and each law that ends, is pressed in parts of its thickness or its last point.
@@ -236,8 +278,9 @@ fn reaches(run: &RunReport) -> Vec<(String, DepthOf, f64)> {
         let parts = run.assembly.primitives.get(own.primitives.clone()).unwrap_or(&[]);
         let laws = parts.iter().filter_map(|own| {
             let (_, last) = own.element.range()?;
+            let of = if own.element.ends_at_equator() { DepthOf::Radius } else { DepthOf::Law };
             (last > 0.0 && last.is_finite())
-                .then(|| (own.name.clone(), DepthOf::Law, part(own.deformation, last)))
+                .then(|| (own.name.clone(), of, part(own.deformation, last)))
         });
         all.extend(pad.into_iter().chain(laws));
     }

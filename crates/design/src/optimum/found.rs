@@ -1,8 +1,8 @@
 //! What a search has found.
 
-use dashpot_analysis::RunReport;
+use dashpot_analysis::{RunReport, Unevaluated};
 
-use super::Required;
+use super::{Required, search::SAME};
 
 /// What a requirement comes to in a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +17,26 @@ pub struct Kept {
     pub is_active: bool,
     /// By how much the aim would change per unit of the bound \[SI units\]; of what is active alone.
     pub price: Option<f64>,
+}
+
+/// What a search could not evaluate.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Lost {
+    /// How many designs, and why.
+    pub unevaluated: Unevaluated,
+    /// What the aim of each of them may be at least, in SI units: −∞ of a measure.
+    pub aims: Vec<f64>,
+    /// Searches that were given up, as they took more designs than one may.
+    pub cut: usize,
+}
+
+impl Lost {
+    /// How many of them may be better than a design with this aim; all of them, and what searches that were given up would
+    /// have found, where there is none.
+    pub fn open(&self, aim: Option<f64>) -> usize {
+        let is_open = |least: &&f64| aim.is_none_or(|aim| **least < aim - SAME * aim.abs());
+        self.aims.iter().filter(is_open).count() + if aim.is_none() { self.cut } else { 0 }
+    }
 }
 
 /// A design.
@@ -39,6 +59,8 @@ pub struct Design {
     pub search: Searched,
     /// The designs that were spread, in the order of a grid, the last number fastest.
     pub spread: Vec<Looked>,
+    /// What could not be evaluated on the way.
+    pub lost: Lost,
     /// What scatter leaves of it, where it was asked to bear some.
     pub borne: Option<Borne>,
     /// Its runs, one for each test, with their errors.
@@ -82,6 +104,8 @@ pub struct Borne {
     pub kept: usize,
     /// … of so many.
     pub designs: usize,
+    /// Those that could not be evaluated, and count as not kept.
+    pub unevaluated: usize,
     /// How far limits are drawn in, in standard deviations of what the sample makes of each.
     pub deviations: f64,
 }
@@ -90,6 +114,11 @@ impl Borne {
     /// Whether enough of them keep everything.
     pub fn is_enough(&self) -> bool {
         self.kept as f64 >= self.wanted * self.designs as f64
+    }
+
+    /// Whether enough of them may keep everything if those do that could not be evaluated.
+    pub fn may_be_enough(&self) -> bool {
+        (self.kept + self.unevaluated) as f64 >= self.wanted * self.designs as f64
     }
 }
 

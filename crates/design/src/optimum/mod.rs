@@ -22,7 +22,7 @@ mod spread;
 mod tests;
 
 use dashpot_analysis::{
-    RunError,
+    RunError, Unevaluated,
     sweep::{PoseAt, SweepError},
 };
 use thiserror::Error;
@@ -31,7 +31,7 @@ use self::search::Search;
 pub use self::{
     along::along,
     evaluate::{DepthOf, Required, Requirement},
-    found::{Borne, Design, Front, FrontPoint, Kept, Looked, Searched, Side, Slope},
+    found::{Borne, Design, Front, FrontPoint, Kept, Looked, Lost, Searched, Side, Slope},
     front::{front, undominated},
     robust::{PoseScattered, Scattered, robust},
 };
@@ -116,9 +116,14 @@ pub enum DesignError {
     #[error("their bounds allow sums from {low} to {high} in SI units alone")]
     #[expect(missing_docs, reason = "the message says what the fields are")]
     NoSum { low: f64, high: f64 },
-    /// No design could be solved.
-    #[error("no design between the bounds can be solved: {0}")]
-    Nothing(String),
+    /// No design could be evaluated.
+    #[error("no design between the bounds can be evaluated: {}", first(.0))]
+    Nothing(Unevaluated),
+}
+
+/// Why the first of them could not.
+fn first(all: &Unevaluated) -> &str {
+    all.causes.first().map_or("there is none", |own| &own.cause.message)
 }
 
 /// Searches the best numbers within what is required in all tests; without variables it is the scene that is judged.

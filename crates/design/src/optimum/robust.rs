@@ -58,7 +58,8 @@ pub fn robust(
         let own = search.settled(best, searched, &known, slack.clone())?;
         let sample = search.sample(&own, scattered)?;
         let (kept, designs) = (sample.kept(0.0), sample.excesses.len());
-        let borne = Borne { wanted: scattered.share, kept, designs, deviations };
+        let unevaluated = sample.unevaluated;
+        let borne = Borne { wanted: scattered.share, kept, designs, unevaluated, deviations };
         let is_feasible = own.is_feasible;
         let is_better = |before: &Borne| match (borne.is_enough(), before.is_enough()) {
             (true, true) => deviations < before.deviations,
@@ -92,7 +93,7 @@ pub fn robust(
         let drawn_in = spreads.iter().zip(&least);
         slack = drawn_in.map(|(own, least): (&f64, &f64)| (deviations * own).max(*least)).collect();
     }
-    found.ok_or_else(|| DesignError::Nothing("no sample of it can be solved".to_owned()))
+    found.ok_or_else(|| DesignError::NotPosed("no sample of it can be solved".to_owned()))
 }
 
 /// Between too few and enough standard deviations, where nothing more than is allowed is exceeded, on the safe side.
@@ -110,6 +111,8 @@ struct Sample {
     own: Vec<f64>,
     /// The standard deviation of each.
     spreads: Vec<f64>,
+    /// Designs that could not be evaluated.
+    unevaluated: usize,
 }
 
 impl Sample {
@@ -165,17 +168,21 @@ impl Search<'_> {
     fn sample(&self, design: &Design, scattered: Scattered<'_>) -> Result<Sample, DesignError> {
         let required = &self.evaluator.required;
         let mut values: Vec<Vec<f64>> = Vec::new();
+        let mut missing = Vec::new();
         for test in 0..self.evaluator.tests() {
             let posed = (scattered.pose)(test, &design.values).map_err(DesignError::NotPosed)?;
             let count = required.iter().filter(|own| own.test == test).count();
             let of_test = self.shared(&posed, &|point: &ScenePoint| {
-                let found = self.evaluator.of_scattered(test, point.clone(), &design.values);
-                found.unwrap_or_else(|_| vec![f64::NAN; count])
+                self.evaluator.of_scattered(test, point.clone(), &design.values)
             });
             if values.is_empty() {
                 values = vec![Vec::new(); of_test.len()];
+                missing = vec![false; of_test.len()];
             }
-            values.iter_mut().zip(of_test).for_each(|(all, own)| all.extend(own));
+            for ((all, is_missing), own) in values.iter_mut().zip(&mut missing).zip(of_test) {
+                *is_missing |= own.is_err();
+                all.extend(own.unwrap_or_else(|_| vec![f64::NAN; count]));
+            }
         }
         // What cannot be solved keeps nothing.
         let excess = |at: usize, value: f64| {
@@ -196,6 +203,7 @@ impl Search<'_> {
         };
         let spreads = (0..required.len()).map(spread).collect();
         let own = design.kept.iter().map(|own| -own.margin).collect();
-        Ok(Sample { excesses, own, spreads })
+        let unevaluated = missing.iter().filter(|own| **own).count();
+        Ok(Sample { excesses, own, spreads, unevaluated })
     }
 }

@@ -2,8 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use dashpot_analysis::{Cause, Misses, Unevaluated};
+
 use super::{
-    Aim, DesignError, Effort, Looked, Problem, Required, Requirement, Searched,
+    Aim, DepthOf, DesignError, Effort, Looked, Lost, Problem, Required, Requirement, Searched,
     aims::{Direct, Epigraph},
     evaluate::{Evaluated, Evaluator},
     programme::{Found, least},
@@ -18,12 +20,20 @@ pub(super) const DRAWN_IN: f64 = 1e-6;
 /// Searches that end with aims this near each other have found one design.
 pub(super) const SAME: f64 = 1e-5;
 
+/// Designs that one search may look at, for each of its unknowns and one more.
+const MOST_LOOKED: usize = 200;
+
 /// A search.
 pub(super) struct Search<'p> {
     pub(super) evaluator: Evaluator<'p>,
     pub(super) space: Space,
     effort: Effort,
     pub(super) solved: AtomicUsize,
+    /// What could not be evaluated: its numbers, and why.
+    missing: Misses,
+    /// After so many designs in all the search at hand is given up, and how many were.
+    until: AtomicUsize,
+    cut: AtomicUsize,
 }
 
 /// The designs that were spread.
@@ -52,7 +62,8 @@ impl<'p> Search<'p> {
         let space = Space::of(problem.variables, problem.totals);
         let begin = space.values(&space.unknowns(&problem.begin()));
         let evaluator = Evaluator::new(problem.tests, problem.aim, other, &begin)?;
-        Ok(Self { evaluator, space, effort, solved: AtomicUsize::new(0) })
+        let [solved, cut, until] = [0, 0, usize::MAX].map(AtomicUsize::new);
+        Ok(Self { evaluator, space, effort, solved, missing: Misses::default(), until, cut })
     }
 
     /// By how much requirements are drawn in at least: neither thickness nor law is left by rounding.
@@ -70,27 +81,58 @@ impl<'p> Search<'p> {
         places.push(begin);
         let (mut looked, found) = self.looked(&places);
         looked.truncate(count);
-        let why = found.iter().find_map(|own| own.as_ref().err().cloned());
-        let all = places.into_iter().zip(found).filter_map(|(place, found)| {
-            let found = found.ok()?;
-            let is_whole = found.aims.iter().chain(&found.values).all(|own| own.is_finite());
-            is_whole.then_some(Spread { place, found })
-        });
+        let all = places.into_iter().zip(found);
+        let all = all.filter_map(|(place, found)| Some(Spread { place, found: found.ok()? }));
         let all: Vec<Spread> = all.collect();
         if all.is_empty() {
-            return Err(DesignError::Nothing(why.unwrap_or_default()));
+            return Err(DesignError::Nothing(self.lost(None).unevaluated));
         }
         Ok(Known { all, looked, is_grid })
+    }
+
+    /// What could not be evaluated so far. Where nothing keeps everything, that are those of `looked` as well which round
+    /// bodies press by more than their radius, and those which keep all but the range of a law: beyond it the law is taken
+    /// as straight, which for one that stiffens is the least that its force and peak may be.
+    pub(super) fn lost(&self, looked: Option<&[Looked]>) -> Lost {
+        let mut all = self.missing.all();
+        let required = &self.evaluator.required;
+        let is_exceeded = |own: &Looked, at: usize| {
+            let value = own.required.get(at).copied().unwrap_or(f64::NAN);
+            required[at].what.excess(value, 0.0) > 0.0
+        };
+        let ends = |own: &Required| {
+            matches!(own.what, Requirement::Depth(_, DepthOf::Law | DepthOf::Radius))
+        };
+        for own in looked.into_iter().flatten() {
+            let mut others = (0..required.len()).filter(|at| !ends(&required[*at]));
+            let keeps_others = !others.any(|at| is_exceeded(own, at));
+            let beyond = (0..required.len()).find_map(|at| match &required[at].what {
+                Requirement::Depth(name, of)
+                    if is_exceeded(own, at)
+                        && (*of == DepthOf::Radius || *of == DepthOf::Law && keeps_others) =>
+                {
+                    Some(name)
+                }
+                _ => None,
+            });
+            let message = || "it is pressed beyond what is known of it".to_owned();
+            let cause = beyond.map(|name| Cause::beyond(name, message()));
+            all.extend(cause.map(|cause| (own.values.clone(), cause)));
+        }
+        let causes = all.iter().map(|(place, cause)| (cause, &place[..]));
+        let unevaluated = Unevaluated::of(self.solved.load(Ordering::Relaxed), causes);
+        let aims = all.iter().map(|own| self.evaluator.least_aim(&own.0)).collect();
+        Lost { unevaluated, aims, cut: self.cut.load(Ordering::Relaxed) }
     }
 
     /// What designs come to.
     pub(super) fn looked(
         &self,
         places: &[Vec<f64>],
-    ) -> (Vec<Looked>, Vec<Result<Evaluated, String>>) {
+    ) -> (Vec<Looked>, Vec<Result<Evaluated, Cause>>) {
         let found = self.solved(places);
         let none = self.no_slack();
-        let one = |(place, found): (&Vec<f64>, &Result<Evaluated, String>)| {
+        let one = |(place, found): (&Vec<f64>, &Result<Evaluated, Cause>)| {
             let values = self.space.values(place);
             let (aim, required, excess) = match found {
                 Ok(own) => (worst(&own.aims), own.values.clone(), self.excess(own, &none)),
@@ -156,8 +198,12 @@ impl<'p> Search<'p> {
     }
 
     pub(super) fn at(&self, unknowns: &[f64]) -> Option<Evaluated> {
+        if self.is_over() {
+            return None;
+        }
         self.solved.fetch_add(1, Ordering::Relaxed);
-        self.evaluator.at(&self.values(unknowns)).ok()
+        let values = self.values(unknowns);
+        self.evaluator.at(&values).map_err(|cause| self.missing.note(values, cause)).ok()
     }
 
     /// The designs beside one along a number, with their places, within the bounds.
@@ -181,9 +227,15 @@ impl<'p> Search<'p> {
     }
 
     /// Solves designs by all threads, in their order.
-    fn solved(&self, places: &[Vec<f64>]) -> Vec<Result<Evaluated, String>> {
+    fn solved(&self, places: &[Vec<f64>]) -> Vec<Result<Evaluated, Cause>> {
         self.solved.fetch_add(places.len(), Ordering::Relaxed);
-        self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)))
+        let all = self.shared(places, &|place: &Vec<f64>| self.evaluator.at(&self.values(place)));
+        for (place, found) in places.iter().zip(&all) {
+            if let Err(cause) = found {
+                self.missing.note(self.values(place), cause.clone());
+            }
+        }
+        all
     }
 
     /// Does the same to all of these by all threads, in their order.
@@ -212,8 +264,22 @@ impl<'p> Search<'p> {
         starts
     }
 
-    /// The best design from a start, its aim and largest excess; what exceeds is brought back first.
+    fn is_over(&self) -> bool {
+        self.solved.load(Ordering::Relaxed) >= self.until.load(Ordering::Relaxed)
+    }
+
+    /// The best design from a start, its aim and largest excess; what exceeds is brought back first. None where that takes
+    /// more designs than a search may look at.
     pub(super) fn from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
+        let most = MOST_LOOKED * (start.len() + 1);
+        self.until.store(self.solved.load(Ordering::Relaxed) + most, Ordering::Relaxed);
+        let found = self.found_from(start, slack);
+        self.cut.fetch_add(usize::from(self.is_over()), Ordering::Relaxed);
+        self.until.store(usize::MAX, Ordering::Relaxed);
+        found
+    }
+
+    fn found_from(&self, start: &[f64], slack: &[f64]) -> Option<Found> {
         let mut from = start.to_vec();
         if from.is_empty() {
             return None;
@@ -241,13 +307,11 @@ impl<'p> Search<'p> {
             let [below, above] = self.beside(unknowns, at);
             let width = above.0 - below.0;
             let sides = below.1.zip(above.1);
-            let [(aims, excesses), other] = match sides {
-                Some((below, above)) => [below, above].map(|own| {
-                    let excesses = self.excesses(&own, slack);
-                    (own.aims, excesses)
-                }),
-                None => Default::default(),
-            };
+            let of = |own: Evaluated| (own.aims.clone(), self.excesses(&own, slack));
+            let none = |count| vec![f64::NAN; count];
+            let nothing = || [(); 2].map(|()| (none(self.evaluator.aims()), none(slack.len())));
+            let [(aims, excesses), other] =
+                sides.map_or_else(nothing, |(below, above)| [below, above].map(of));
             let slope = |one: &[f64], other: &[f64]| {
                 one.iter().zip(other).map(|(one, other)| (other - one) / width).collect()
             };

@@ -7,7 +7,7 @@ use dashpot_numerics::decompositions::singular;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    Design, DesignError, Kept, Requirement, Searched, Side, Slope,
+    Design, DesignError, Kept, Lost, Requirement, Searched, Side, Slope,
     evaluate::Evaluated,
     programme::Found,
     search::{DRAWN_IN, Known, ROOM, Search, worst},
@@ -29,7 +29,7 @@ impl Search<'_> {
         known: &Known,
         mut slack: Vec<f64>,
     ) -> Result<Design, DesignError> {
-        let is_feasible = best.values[1] <= ROOM;
+        let is_feasible = best.values[1] <= ROOM && best.values[0].is_finite();
         let mut runs = Vec::new();
         for at in 0..=MOVES {
             let values = self.values(&best.unknowns);
@@ -58,9 +58,11 @@ impl Search<'_> {
             let Some(moved) = self.from(&best.unknowns, &slack) else { break };
             best = Found { values: vec![moved.values[0], moved.values[1]], ..moved };
         }
-        searched.solved = self.solved.load(Ordering::Relaxed);
         let spread = known.looked.clone();
-        Ok(Design { spread, runs, ..self.told(&best, &slack, (searched, is_feasible))? })
+        let told = self.told(&best, &slack, (searched, is_feasible))?;
+        searched.solved = self.solved.load(Ordering::Relaxed);
+        let lost = self.lost((!is_feasible).then_some(&spread[..]));
+        Ok(Design { search: searched, spread, lost, runs, ..told })
     }
 
     fn told(
@@ -70,7 +72,8 @@ impl Search<'_> {
         (search, is_feasible): (Searched, bool),
     ) -> Result<Design, DesignError> {
         let values = self.values(&best.unknowns);
-        let found = self.evaluator.at(&values).map_err(DesignError::NotPosed)?;
+        let found = self.evaluator.at(&values);
+        let found = found.map_err(|cause| DesignError::NotPosed(cause.message))?;
         let slopes = self.slopes_of(&best.unknowns, &found);
         let excess = |at: usize| self.evaluator.required[at].what.excess(found.values[at], 0.0);
         let side = |(at, value): (usize, &f64)| match self.space.alone(at, *value) {
@@ -95,8 +98,20 @@ impl Search<'_> {
         });
         let kept = kept.collect();
         let aim = worst(&found.aims);
-        let (spread, borne, runs) = (Vec::new(), None, Vec::new());
-        Ok(Design { values, aim, kept, slopes, at_bound, is_feasible, search, spread, borne, runs })
+        let (spread, lost, borne, runs) = (Vec::new(), Lost::default(), None, Vec::new());
+        Ok(Design {
+            values,
+            aim,
+            kept,
+            slopes,
+            at_bound,
+            is_feasible,
+            search,
+            spread,
+            lost,
+            borne,
+            runs,
+        })
     }
 
     /// Derivatives in SI units by numbers in SI units.

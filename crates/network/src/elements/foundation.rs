@@ -245,6 +245,11 @@ impl Element for Foundation {
         let end = known.into_iter().chain(equator).reduce(f64::min);
         end.map(|end| (f64::NEG_INFINITY, end))
     }
+
+    fn ends_at_equator(&self) -> bool {
+        let known = self.law.range().map_or(f64::INFINITY, |range| range.1);
+        self.indenter.has_equator() && self.face.rim < known
+    }
 }
 
 const FREE: usize = 0;

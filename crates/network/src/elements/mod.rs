@@ -149,6 +149,11 @@ pub trait Element: Described {
         None
     }
 
+    /// Whether that range ends where the round body that presses the element is in by its radius, before the law does.
+    fn ends_at_equator(&self) -> bool {
+        false
+    }
+
     /// The deformations \[m\] between which the force at rest is a cubic of the deformation, in rising order;
     /// none where it is one cubic, and before the first and beyond the last it goes on as one. `None` for
     /// all other laws.

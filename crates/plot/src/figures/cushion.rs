@@ -46,8 +46,6 @@ pub enum CushionMark {
     Known,
     /// The cushion meets its stop there.
     OnStop,
-    /// The cushion is pressed beyond its law or its thickness.
-    Beyond,
 }
 
 impl CushionMark {
@@ -55,7 +53,6 @@ impl CushionMark {
         match self {
             Self::Known => Pattern::Solid,
             Self::OnStop => Pattern::Dashed,
-            Self::Beyond => Pattern::Dotted,
         }
     }
 
@@ -63,7 +60,6 @@ impl CushionMark {
         match self {
             Self::Known => "",
             Self::OnStop => "dashed: on the stop",
-            Self::Beyond => "dotted: beyond the law or the thickness",
         }
     }
 }
@@ -92,9 +88,7 @@ impl CushionSeries {
         });
         let floors: Vec<Series> = floors.collect();
         let mut notes = vec![self.note.clone()];
-        for mark in [CushionMark::OnStop, CushionMark::Beyond] {
-            notes.extend(self.has(mark).then(|| mark.words().to_owned()));
-        }
+        notes.extend(self.has(CushionMark::OnStop).then(|| CushionMark::OnStop.words().to_owned()));
         notes.extend(
             (!floors.is_empty()).then(|| "dash-dotted: no cushion can do better".to_owned()),
         );
@@ -190,7 +184,7 @@ impl CushionCurve {
     fn parts(&self, colour: usize, top: f64) -> Vec<Series> {
         let mut parts = Vec::new();
         let all = self.with_best();
-        for mark in [CushionMark::Known, CushionMark::OnStop, CushionMark::Beyond] {
+        for mark in [CushionMark::Known, CushionMark::OnStop] {
             let mut points = Vec::new();
             for pair in all.windows(2) {
                 // A part reaches to the last point that is known better.
@@ -233,7 +227,6 @@ fn rank(mark: CushionMark) -> u8 {
     match mark {
         CushionMark::Known => 0,
         CushionMark::OnStop => 1,
-        CushionMark::Beyond => 2,
     }
 }
 
@@ -261,8 +254,8 @@ mod tests {
 
     fn series() -> CushionSeries {
         let marks =
-            [CushionMark::Known, CushionMark::Known, CushionMark::OnStop, CushionMark::Beyond];
-        let points = [(1.0, 400.0), (2.0, 40.0), (4.0, 60.0), (8.0, 90.0)];
+            [CushionMark::Known, CushionMark::Known, CushionMark::OnStop, CushionMark::Known];
+        let points = [(1.0, 400.0), (2.0, 40.0), (4.0, 60.0), (8.0, f64::NAN)];
         let points = points.into_iter().zip(marks).map(|((x, y), mark)| (x, y, mark)).collect();
         let name = "60 mm".to_owned();
         let curve = CushionCurve {
@@ -287,10 +280,7 @@ mod tests {
         let chart = series().chart();
         let patterns: Vec<Pattern> =
             chart.series.iter().map(|own| own.stroke.unwrap().pattern).collect();
-        assert_eq!(
-            patterns,
-            [Pattern::Band, Pattern::Solid, Pattern::Dashed, Pattern::Dotted, Pattern::DashDotted]
-        );
+        assert_eq!(patterns, [Pattern::Band, Pattern::Solid, Pattern::Dashed, Pattern::DashDotted]);
         // The band ends at the top, and begins where it is below it.
         let band = &chart.series[0].points;
         let inner: Vec<_> = band.iter().filter(|own| own.1.is_finite()).collect();

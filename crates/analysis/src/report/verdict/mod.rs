@@ -1,18 +1,21 @@
 //! What is to be known first of a run, in numbers.
 
+mod depth;
+
 use dashpot_dae::Extremum;
 use dashpot_network::{
-    ConnectionOutputs, NodeOutputs,
+    ConnectionOutputs, NodeId, NodeOutputs,
     parameters::{Kind as _, WindowWish},
 };
 
+pub use self::depth::{Depth, Layer};
 use crate::{
-    Compression, Contact, ContactReport, MeasureReport, RunReport,
+    Contact, ContactReport, MeasureReport, RunReport,
     energy::ledger::{Ledger, ledger},
     impact::contacts,
     measures::{
         CoefficientOfRestitution, ContactTime, EndVelocity, Energy, Measure, PeakAcceleration,
-        PeakDeformation, PeakForce, TransmittedForce,
+        PeakForce, TransmittedForce,
     },
 };
 
@@ -34,6 +37,8 @@ pub struct Verdict<'r> {
     pub peak_acceleration: Option<Peak<'r>>,
     /// The pad with the least left of its thickness, or else the largest deformation.
     pub depth: Option<Depth<'r>>,
+    /// All other elements that have a thickness, in the order of the network.
+    pub layers: Vec<Layer<'r>>,
     /// The largest energy that an element takes up.
     pub energy: Option<TakenUp<'r>>,
     /// How the impact ends.
@@ -85,15 +90,6 @@ pub struct Elsewhere<'r> {
     pub peak: Extremum,
     /// The window of the largest force that is reported \[s\].
     pub window: Option<(f64, f64)>,
-}
-
-/// How far a pad is pressed.
-#[derive(Debug, Clone, Copy)]
-pub struct Depth<'r> {
-    /// Its largest deformation.
-    pub peak: Peak<'r>,
-    /// That beside its thickness, where it has one.
-    pub compression: Option<Compression>,
 }
 
 /// What an element takes up, and of what.
@@ -167,8 +163,9 @@ pub struct Leaving<'r> {
     pub speed: f64,
     /// Whether it has turned.
     pub returns: bool,
-    /// The element's coefficient of restitution, where the impactor has turned.
-    pub restitution: Option<&'r MeasureReport>,
+    /// The coefficient of restitution with its error, where the impactor has turned and that is known: of the element that
+    /// it strikes between bodies, else the impactor's own, its speed over that at touch.
+    pub restitution: Option<(f64, Option<f64>)>,
 }
 
 /// What is known of the errors of the values.
@@ -191,12 +188,14 @@ impl<'r> Verdict<'r> {
     pub fn of(run: &'r RunReport) -> Self {
         let found = Found(run);
         let whole_force = found.whole_force();
+        let depth = found.depth();
         Self {
             peak_force: found.peak(PeakForce::KIND),
             elsewhere: if whole_force.is_some() { None } else { found.elsewhere() },
             whole_force,
             peak_acceleration: found.peak(PeakAcceleration::KIND),
-            depth: found.depth(),
+            layers: found.layers(depth.map(Depth::element)),
+            depth,
             energy: found.energy(),
             ending: found.ending(),
             reached: found.reached(),
@@ -282,29 +281,6 @@ impl<'r> Found<'r> {
         let is_larger = peak.value > value + margin.max(MARGIN * value);
         let is_other = element != measure.target && is_larger;
         (peak.value.is_infinite() || is_other).then_some(Elsewhere { element, peak, window })
-    }
-
-    fn depth(self) -> Option<Depth<'r>> {
-        let pads = self.of_kind(PeakDeformation::KIND).filter_map(|measure| {
-            let at = self.0.assembly.position(&measure.target)?;
-            let connection = &self.connections()[at];
-            let (thickness, window) = connection.thickness.zip(measure.window)?;
-            if let Some(struck) = self.0.trajectory.to_come().filter(|own| own.element == at) {
-                let deepest = [struck.deepest.value, struck.deepest.time];
-                return Some((measure, Compression::new(deepest, measure.error, thickness)));
-            }
-            let solution = self.0.solution();
-            let deformation = solution.signal(connection.deformation);
-            Some((measure, Compression::of(deformation, window, thickness)))
-        });
-        let strain = |own: &(_, Compression)| -own.1.strain();
-        let tightest = pads.min_by(|one, other| strain(one).total_cmp(&strain(other)));
-        if let Some((measure, own)) = tightest {
-            let peak = self.finite(measure, measure.value?);
-            return Some(Depth { peak, compression: Some(own) });
-        }
-        let (measure, value) = self.largest(PeakDeformation::KIND)?;
-        Some(Depth { peak: self.finite(measure, value), compression: None })
     }
 
     /// The impactors, or those that strike an element.
@@ -421,10 +397,30 @@ impl<'r> Found<'r> {
         let at = self.0.assembly.position(element)?;
         // A face with mass keeps what strikes it; the element behind it throws both back.
         let at = self.0.assembly.pad_behind(at).map_or(at, |pad| pad.element);
-        let name = &self.connections()[at].name;
-        let restitution = self.0.measure(&format!("{name}.{}", CoefficientOfRestitution::KIND));
-        let restitution = restitution.filter(|own| returns && own.value.is_some());
+        let restitution = if self.is_between_bodies(at, node) {
+            let key = format!("{}.{}", self.connections()[at].name, CoefficientOfRestitution::KIND);
+            self.0.measure(&key).and_then(|own| Some((own.value?, own.error)))
+        } else {
+            node.start_velocity.map(|start| (speed.abs() / start.abs(), None))
+        };
+        let restitution = restitution.filter(|_| returns);
         Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })
+    }
+
+    /// Whether the end of an element that is not struck is held or has mass: else the speed of its ends is not that of
+    /// what strikes it against anything.
+    fn is_between_bodies(self, element: usize, struck_by: &NodeOutputs) -> bool {
+        let assembly = &*self.0.assembly;
+        let face = assembly.pads.iter().find(|own| own.element == element).and_then(|own| own.face);
+        let ends = assembly.connections[element].between.map(NodeId::index);
+        let mut others = ends
+            .into_iter()
+            .filter(|own| Some(*own) != face && assembly.nodes[*own].body != struck_by.body);
+        let is_body = |own: &NodeOutputs| !own.free || own.mass > 0.0;
+        others.all(|own| {
+            let body = assembly.nodes[own].body;
+            assembly.nodes.iter().any(|own| own.body == body && is_body(own))
+        })
     }
 
     fn reached(self) -> Reached<'r> {

@@ -165,6 +165,8 @@ pub struct Beyond {
     pub time: f64,
     /// The deformation where the law ends \[m\].
     pub point: f64,
+    /// Whether it ends there because the round body that presses the element is in by its radius.
+    pub at_equator: bool,
 }
 
 /// A peak outside of the impact.
@@ -201,6 +203,7 @@ impl Warning {
             Self::Pulls { since: Some(_), .. } => "pulls",
             Self::Pulls { since: None, .. } => "pulls-from-the-start",
             Self::PressedThrough { .. } => "pressed-through",
+            Self::BeyondLaw(Beyond { at_equator: true, .. }) => "pressed-beyond-radius",
             Self::BeyondLaw(Beyond { is_pressed: true, .. }) => "pressed-beyond-points",
             Self::BeyondLaw(_) => "stretched-beyond-points",
             Self::CrushedPart { .. } => "crushed-part",

@@ -50,6 +50,15 @@ impl fmt::Display for Beyond {
         let [how, which] =
             if self.is_pressed { ["pressed", "end"] } else { ["stretched", "beginning"] };
         let excess = quantity(self.excess, "m");
+        if self.at_equator {
+            let (radius, time) = (quantity(self.point, "m"), quantity(self.time, "s"));
+            return write!(
+                f,
+                "{} is pressed in by {excess} more than the radius of its body, {radius}, at {time}: what touches it \
+                 beyond is not modelled",
+                self.name
+            );
+        }
         let point = if self.point.abs() > 0.0 { quantity(self.point, "m") } else { "0".to_owned() };
         write!(
             f,

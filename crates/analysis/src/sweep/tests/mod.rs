@@ -288,7 +288,7 @@ fn points_that_fail_are_gaps_and_the_others_stand() {
     })
     .unwrap();
     assert_eq!(found.gaps.len(), 1);
-    assert_eq!((found.gaps[0].point, found.gaps[0].reason.as_str()), (2, "no such scene"));
+    assert_eq!((found.gaps[0].point, found.gaps[0].cause.message.as_str()), (2, "no such scene"));
     let finite: Vec<bool> = found.column(0).map(f64::is_finite).collect();
     assert_eq!(finite, [true, true, false, true, true]);
 }

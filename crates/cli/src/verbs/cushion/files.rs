@@ -119,12 +119,11 @@ fn series(drawn: &Drawn, height: f64) -> CushionSeries {
 fn curve(own: &Curve) -> CushionCurve {
     let place = |stress: f64, peak: f64| (in_kpa().of(stress), in_g().of(peak));
     let points = list(own.points.iter().map(|own| {
-        let mark = match own.known {
-            Known::Whole | Known::Infinite | Known::Unsolved => CushionMark::Known,
-            Known::OnStop => CushionMark::OnStop,
-            Known::BeyondLaw | Known::PressedThrough => CushionMark::Beyond,
-        };
-        let (x, y) = place(own.stress, own.peak);
+        let is_on_stop = own.known == Known::OnStop;
+        let mark = if is_on_stop { CushionMark::OnStop } else { CushionMark::Known };
+        // A law that is followed beyond its range tells nothing of the peak there.
+        let peak = if own.is_usable() { own.peak } else { f64::NAN };
+        let (x, y) = place(own.stress, peak);
         (x, y, mark)
     }));
     let best = own.best.map(|own| place(own.point.stress, own.point.peak));
@@ -142,14 +141,15 @@ fn curve(own: &Curve) -> CushionCurve {
 fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Report {
     let scene = &drawn.scene;
     let settings = Table::new("Settings", &[], origin::rows(scene));
-    let verdict = words::lines(drawn).into_iter().map(|own| own.text);
+    let verdict = words::lines(drawn).into_iter();
+    let verdict = verdict.map(|own| format!("{}: {}", own.label, own.text));
     let remarks = words::notes(drawn).into_iter().chain(said::notes(scene));
     let beside = [beside::row_table(drawn), beside::creep_table(drawn)];
     let tables = [words::table(drawn)].into_iter().chain(beside);
     let tables = tables.chain([Table::list("Remarks", remarks)]);
     Report {
         title: title(scene).to_owned(),
-        warnings: said::warnings(scene, &[]),
+        warnings: list(words::missing(drawn).into_iter().chain(said::warnings(scene, &[]))),
         verdict: [words::asked(drawn)].into_iter().chain(verdict).collect(),
         network: sketch::figure(scene),
         tables: tables.into_iter().filter(|own| !own.rows.is_empty()).collect(),

@@ -178,7 +178,12 @@ fn bar(
 }
 
 impl Study for Drawn {
+    fn warnings(&self) -> Vec<String> {
+        words::missing(self)
+    }
+
     fn text(&self, text: &mut Text) {
+        text.warnings(&self.warnings());
         text.title(title(&self.scene));
         text.faint(&words::asked(self));
         text.blank();

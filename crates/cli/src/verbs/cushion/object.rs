@@ -30,6 +30,7 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
         file: &scene.file,
         sha256: origin::of_text(scene),
         files: origin::of_files(scene),
+        unevaluated: &cushion.unevaluated,
         platen,
         limit: wanted.asked.limit,
         over: wanted.asked.over,
@@ -121,9 +122,9 @@ fn thinnest(own: &Thinnest) -> impl Serialize {
     let unmet = own.over_all.err().map(|own| {
         let (peak, stress) = match own {
             Unmet::Peak(peak, stress) => (Some(peak), stress),
-            Unmet::Known(stress) => (None, stress),
+            Unmet::Known(stress, _) => (None, stress),
         };
-        object! { peak, stress }
+        object! { peak, stress, certain: own.is_certain() }
     });
     let lightest = own.lightest.map(|[volume, thickness, stress]| {
         object! { volume_per_weight: volume, thickness, stress }
@@ -132,6 +133,6 @@ fn thinnest(own: &Thinnest) -> impl Serialize {
         height: own.height,
         thickness: all.map(|own| own.0), peak: all.map(|own| own.1.peak), error: all.map(|own| own.1.error),
         stress: all.map(|own| own.1.stress),
-        is_first: own.is_first, unmet, lightest, sure: own.sure.as_ref().map(sure),
+        is_first: own.is_first, is_open: own.is_open, unmet, lightest, sure: own.sure.as_ref().map(sure),
     }
 }

@@ -1,6 +1,6 @@
 //! Cushion curves in words.
 
-use dashpot_analysis::measures::STANDARD_GRAVITY;
+use dashpot_analysis::{Missing, measures::STANDARD_GRAVITY};
 use dashpot_design::cushion::{
     Assumed, Best, Curve, CushionPoint, Known, Passing, Place, Reach, Thinnest, Unmet,
 };
@@ -15,6 +15,7 @@ use super::{
 use crate::{
     numbers::{Unit, constant, counted, digits, quantity, rounded},
     output::list,
+    unevaluated,
     verbs::run::Line,
 };
 
@@ -89,7 +90,7 @@ pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
                 length(curve.height),
                 length(curve.thickness),
                 in_kpa().text(best.point.stress, DIGITS)
-            ),
+            ) + of_evaluated(drawn),
         }));
     }
     if drawn.cushion.thinnest.is_empty()
@@ -102,6 +103,21 @@ pub(super) fn lines(drawn: &Drawn) -> Vec<Line> {
     lines.extend(drawn.cushion.stress_energy.as_ref().map(beside::stress_energy));
     lines.extend(drawn.cushion.creep.iter().find_map(beside::slowest));
     lines
+}
+
+/// What is said of a least value where not everything could be evaluated.
+fn of_evaluated(drawn: &Drawn) -> &'static str {
+    let missing = &drawn.cushion.unevaluated;
+    if missing.is_empty() { "" } else { ", of the drops that could be evaluated" }
+}
+
+/// What could not be evaluated.
+pub(super) fn missing(drawn: &Drawn) -> Vec<String> {
+    let place = |own: &Missing| {
+        let [height, thickness, stress] = own.values[..] else { return String::new() };
+        format!("{} on {} with {}", length(height), length(thickness), in_kpa().text(stress, FEW))
+    };
+    unevaluated::sentences(&drawn.cushion.unevaluated, "drop", place)
 }
 
 /// The static stress of what falls in the scene.
@@ -124,6 +140,9 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
         label,
         text: format!("{} from {height}: {text}", in_g().text(limit, FEW)),
     };
+    let has =
+        |known: Known| curves.iter().flat_map(|own| &own.points).any(|own| own.known == known);
+    let is_missing = has(Known::Unsolved);
     if let Some((own, kept)) = curves.iter().find_map(|own| Some((own, own.passing?))) {
         let [low, high] = kept.stress;
         let (low, high) = (in_kpa().number(low, FEW), in_kpa().text(high, FEW));
@@ -131,14 +150,17 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
     }
     let Some((own, Best { point, place, .. })) = least(curves) else {
         let pressed = format!("every drop presses {} {}", drawn.cushion.platen.pad, end(drawn));
-        return line("FAIL", pressed);
+        let is_certain = !is_missing && !has(Known::BeyondLaw);
+        return line(if is_certain { "FAIL" } else { "UNDECIDED" }, pressed);
     };
     // The least peak may lie beyond the stresses, or within the error of what was found.
     let is_end = |place: Place| matches!(place, Place::Low | Place::High);
     let is_at_end = |own: &Curve| own.best.is_some_and(|own| is_end(own.place));
     let error = if point.error.is_finite() { point.error } else { 0.0 };
     let is_near = point.peak - error <= limit;
-    let is_open = is_near || curves.iter().any(is_at_end);
+    let falls_on = |own: &Curve| own.best.is_some_and(|own| own.place == Place::EndOfKnown);
+    let is_beyond = curves.iter().any(falls_on) && has(Known::BeyondLaw);
+    let is_open = is_near || is_missing || is_beyond || curves.iter().any(is_at_end);
     let error = if is_near && error > 0.0 {
         format!(" ± {}", in_g().number(error, 2))
     } else {
@@ -177,8 +199,11 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
     let height = length(own.height);
     let first = match own.over_all {
         Ok((thickness, worst)) => {
-            let first =
-                if own.is_first { "; it is the thinnest one that was asked for" } else { "" };
+            let first = match (own.is_first, own.is_open) {
+                (true, _) => "; it is the thinnest one that was asked for",
+                (false, true) => "; thinner ones could not be evaluated and may keep it as well",
+                (false, false) => "",
+            };
             let error = worst.error / worst.peak;
             let error = if error.is_finite() {
                 format!(" ± {}", percent(error, 1))
@@ -191,19 +216,23 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
                 in_g().text(worst.peak, DIGITS),
                 in_kpa().text(worst.stress, FEW),
             );
-            ("thinnest", text)
+            (if own.is_open { "UNDECIDED" } else { "thinnest" }, text)
         }
         Err(why) => {
+            let label = if why.is_certain() { "NONE" } else { "UNDECIDED" };
             let why = match why {
                 Unmet::Peak(peak, stress) => {
                     format!("has {} at {}", in_g().text(peak, DIGITS), in_kpa().text(stress, FEW))
                 }
-                Unmet::Known(stress) => {
+                Unmet::Known(stress, Known::Unsolved) => {
+                    format!("could not be evaluated at {}", in_kpa().text(stress, FEW))
+                }
+                Unmet::Known(stress, _) => {
                     format!("is pressed {} at {}", end(drawn), in_kpa().text(stress, FEW))
                 }
             };
             let thickest = asked.thicknesses.last().map_or(String::new(), |own| length(*own));
-            ("NONE", format!("nothing keeps {limit} from {height} over {over}: {thickest} {why}"))
+            (label, format!("nothing keeps {limit} from {height} over {over}: {thickest} {why}"))
         }
     };
     let lightest = own.lightest.map(|[volume, thickness, stress]| {
@@ -212,7 +241,7 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
             no_less(thickness),
             in_kpa().text(stress, FEW),
             Unit::new("cm³", 1e-6).text(volume * drawn.cushion.platen.gravity, FEW),
-        );
+        ) + of_evaluated(drawn);
         ("lightest", text)
     });
     let sure = batches::sure(own, &limit);
@@ -307,7 +336,6 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         (Known::Infinite, "have an infinite peak: masses meet, as on a rigid stop".to_owned()),
         (Known::BeyondLaw, format!("press {pad} beyond the last point of its law")),
         (Known::PressedThrough, format!("press {pad} by more than its thickness")),
-        (Known::Unsolved, "could not be solved".to_owned()),
     ];
     let told = told.into_iter().map(|(known, text)| (count(known), text));
     let told = told.filter(|own| own.0 > 0);

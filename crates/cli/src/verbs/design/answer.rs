@@ -1,7 +1,7 @@
 //! What a search has found, for people and for programs.
 
-use dashpot_analysis::{Judged, RunReport};
-use dashpot_design::optimum::{Design, Kept, Looked, Requirement};
+use dashpot_analysis::{Judged, Reason, RunReport};
+use dashpot_design::optimum::{Aim, Design, Kept, Looked, Requirement};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -69,6 +69,41 @@ impl Answer {
     pub(super) fn best(&self) -> Option<(&Choice, &Design)> {
         let Found { choice, design } = self.found.first()?;
         Some((choice, design.as_ref().ok()?))
+    }
+
+    /// How many designs that could not be evaluated may be better than the best, or keep everything where it does not.
+    pub(super) fn open(&self) -> usize {
+        let best = self.best().map(|own| own.1);
+        if best.and_then(|own| own.borne).is_some_and(|own| !own.is_enough()) {
+            let borne = |own: &Found| own.design.as_ref().ok().and_then(|own| own.borne);
+            let may_be = |own: &&Found| borne(own).is_none_or(|own| own.may_be_enough());
+            return self.found.iter().filter(may_be).count();
+        }
+        let aim = best.filter(|own| own.is_feasible).map(|own| own.aim);
+        let open = |own: &Found| match &own.design {
+            Ok(own) => own.lost.open(aim),
+            // Of a choice that could not be searched it is known what is made least only where that is a step of it.
+            Err(_) => match self.asked.least.aim(&self.asked, &own.choice) {
+                Aim::Given(least) => usize::from(aim.is_none_or(|aim| least < aim)),
+                _ => 1,
+            },
+        };
+        self.found.iter().map(open).sum()
+    }
+
+    /// The limits of which it is not known whether the best keeps them, for another reason than scatter.
+    pub(super) fn undecided(&self) -> Vec<&str> {
+        let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
+        let all = runs
+            .flat_map(RunReport::judged)
+            .filter(|own| own.judgement.reason().is_some_and(|own| own != Reason::Scatter));
+        list(all.map(|own| own.limit.key.as_str()))
+    }
+
+    /// Whether the answer is claimed: nothing that could not be evaluated, or is not known of the best, can change it.
+    pub(super) fn is_claimed(&self) -> bool {
+        let has_none = self.best().is_none_or(|own| !own.1.is_feasible);
+        self.open() == 0 && (has_none || self.undecided().is_empty())
     }
 
     /// The scene with the best.
@@ -197,7 +232,8 @@ impl Study for Answer {
             let chosen = chosen.map(|(name, own)| format!("{name} = {}", own.shown));
             Some(format!("{} has no design: {why}", list(chosen).join(", ")))
         });
-        let mut all: Vec<String> = list(unsolved);
+        let missing = self.best().map(|own| words::missing(self, own.1));
+        let mut all: Vec<String> = list(missing.into_iter().flatten().chain(unsolved));
         let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
         for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
             if !all.contains(&warning) {
@@ -245,10 +281,14 @@ impl Study for Answer {
                 aim: design.ok().map(|own| own.aim),
                 feasible: design.is_ok_and(|own| own.is_feasible),
                 why: design.err().cloned(),
+                unevaluated: design.ok().map(|own| &own.lost.unevaluated),
             }
         });
         object! {
             dashpot: VERSION,
+            unevaluated: design.map(|own| &own.lost.unevaluated),
+            claimed: self.is_claimed(),
+            open: self.open(),
             parameters: best.map(|(choice, own)| parameters(&self.asked, choice, &own.values)),
             least: self.asked.least.name(&self.asked),
             and: self.asked.and.as_ref().map(|own| own.name(&self.asked)),
@@ -264,7 +304,8 @@ impl Study for Answer {
             choices: list(choices),
             front: list(front),
             robust: design.and_then(|own| own.borne).map(|own| object! {
-                wanted: own.wanted, kept: own.kept, designs: own.designs, deviations: own.deviations,
+                wanted: own.wanted, kept: own.kept, designs: own.designs,
+                unevaluated: own.unevaluated, deviations: own.deviations,
                 enough: own.is_enough(),
             }),
             search: design.map(|own| own.search).map(|own| object! {

@@ -203,7 +203,8 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         return Err(CliError::NoDesign { reason });
     };
     for (test, run) in asked.tests.iter().zip(&mut best.runs) {
-        scatter_of(&posing, (choice, test), &best.values, (run, terminal))?;
+        let wanted = arguments.robust;
+        scatter_of(&posing, (choice, test), (&best.values, wanted), (run, terminal))?;
     }
     let told = |test| -> Option<FloorTold> {
         let point = posing.pose(choice, test)(&best.values).ok()?;
@@ -222,6 +223,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     scenes::print_all_notes(&scenes);
     let (asked, set) = (asked.clone(), set.clone());
     let answer = Answer { scene, asked, found, front, floors, texts, set, slices, settings };
+    let is_kept = is_kept && answer.is_claimed();
     emit(&answer, arguments.json, folder, terminal)?;
     if let Some(file) = file {
         file.write(&answer.written(0))?;
@@ -304,7 +306,7 @@ fn with_problem<T>(
 fn scatter_of(
     posing: &Posing<'_>,
     (choice, test): (&Choice, &Test),
-    values: &[f64],
+    (values, wanted): (&[f64], Option<f64>),
     (run, terminal): (&mut RunReport, Terminal),
 ) -> Result<(), CliError> {
     if posing.scene(test).scene.scatter.is_empty() {
@@ -318,6 +320,9 @@ fn scatter_of(
     let asked = (&point.settings, &*drawn.plain);
     let report = scatter::solved(&drawn.scene, sample, asked, &mut watch);
     run.scatter = report.map_err(CliError::Run)?.map(Box::new);
+    if let (Some(own), Some(wanted)) = (&mut run.scatter, wanted) {
+        own.wanted = wanted;
+    }
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! A design in words.
 
-use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Requirement, Side};
+use dashpot_analysis::Missing;
+use dashpot_design::optimum::{Borne, DepthOf, Design, Kept, Lost, Requirement, Side};
 use dashpot_units::percent;
 
 use super::{
@@ -11,6 +12,7 @@ use super::{
 use crate::{
     numbers::{counted, percent_signed, quantity, significant},
     output::list,
+    unevaluated,
     verbs::run::{Line, limit_lines, measure_text, scatter},
 };
 
@@ -82,27 +84,82 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
     lines
 }
 
+/// What could not be evaluated, with the choice of words and steps where there are several.
+pub(super) fn missing(answer: &Answer, best: &Design) -> Vec<String> {
+    let asked = &answer.asked;
+    let place = |own: &Missing| {
+        let numbers = asked.numbers.iter().zip(&own.values);
+        list(numbers.map(|(own, value)| format!("{} = {}", own.name, own.short(*value, DIGITS))))
+            .join(", ")
+    };
+    let of_best = unevaluated::sentences(&best.lost.unevaluated, "design", place);
+    let others = answer.found.iter().skip(1).filter_map(|own| own.design.as_ref().ok());
+    let others = others.filter(|own| !own.lost.unevaluated.is_empty()).count();
+    let others = (others > 0).then(|| {
+        format!("designs of {} besides, see the object of `--json`", counted(others, "choice"))
+    });
+    let Lost { cut, .. } = best.lost;
+    let cut = (cut > 0).then(|| {
+        let starts = best.search.starts;
+        format!("given up: searches that took too many designs, {cut} times, from {starts} starts")
+    });
+    of_best.into_iter().chain(others).chain(cut).collect()
+}
+
 pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
     let asked = &answer.asked;
     let name = asked.least.name(asked);
+    let open = answer.open();
+    let [may, evaluated] = match open {
+        0 => [String::new(), String::new()],
+        1 => [
+            "; 1 design that could not be evaluated may".to_owned(),
+            " that was evaluated".to_owned(),
+        ],
+        open => [
+            format!("; {open} designs that could not be evaluated may"),
+            " that was evaluated".to_owned(),
+        ],
+    };
     if !best.is_feasible {
         let exceeded = best.kept.iter().filter(|own| own.margin < 0.0 || own.is_active);
-        let exceeded = exceeded.map(|own| {
-            format!("{} by {}", what(asked, own), percent_signed((-own.margin).max(0.0)))
+        let exceeded = exceeded.map(|own| match -own.margin {
+            f64::INFINITY => format!("{}, which is infinite", what(asked, own)),
+            over => format!("{} by {}", what(asked, own), percent_signed(over.max(0.0))),
         });
+        let exceeded = list(exceeded);
+        let exceeded = if exceeded.is_empty() {
+            format!("{name} is infinite in all of them")
+        } else {
+            format!("the one that exceeds the least exceeds {}", exceeded.join(" and "))
+        };
         let text = format!(
-            "no design between the bounds keeps everything; the one that exceeds the least exceeds {}",
-            list(exceeded).join(" and ")
+            "no design between the bounds{evaluated} keeps everything; {exceeded}{}",
+            if open == 0 { String::new() } else { may + " keep it" }
         );
-        return Line { label: "NONE", text };
+        return Line { label: if open == 0 { "NONE" } else { "UNDECIDED" }, text };
     }
     let least = aim_text(asked, &asked.least, (best, best.aim), DIGITS);
     match &best.borne {
         Some(own) if !own.is_enough() => Line {
-            label: "NONE",
+            label: if open == 0 { "NONE" } else { "UNDECIDED" },
             text: format!(
-                "no design was found that keeps everything with {}; the nearest has {name} {least}",
-                percent(own.wanted, FEW)
+                "no design was found that keeps everything with {}; the nearest has {name} {least}{}",
+                percent(own.wanted, FEW),
+                if open == 0 { "" } else { "; scattered designs that could not be evaluated may" }
+            ),
+        },
+        _ if open > 0 => Line {
+            label: "UNDECIDED",
+            text: format!(
+                "{name} {least} keeps everything, the least of what was evaluated{may} have less"
+            ),
+        },
+        _ if !answer.is_claimed() => Line {
+            label: "UNDECIDED",
+            text: format!(
+                "{name} {least} is the least found; whether it keeps {} is not known",
+                answer.undecided().join(" and ")
             ),
         },
         own => {
@@ -172,6 +229,7 @@ pub(super) fn what(asked: &Asked, own: &Kept) -> String {
         Requirement::Limit(limit) => limit.key.clone(),
         Requirement::Depth(name, DepthOf::Thickness) => format!("thickness of {name}"),
         Requirement::Depth(name, DepthOf::Law) => format!("range of the law of {name}"),
+        Requirement::Depth(name, DepthOf::Radius) => format!("radius of the body on {name}"),
         Requirement::Ceiling(..) => asked.and.as_ref().map_or("", |own| own.name(asked)).to_owned(),
     };
     of_test(asked, own, what)
@@ -211,6 +269,7 @@ fn held(answer: &Answer, best: &Design, own: &Kept) -> String {
             let whole = match of {
                 DepthOf::Thickness => "its thickness",
                 DepthOf::Law => "the range of its law",
+                DepthOf::Radius => "the radius of the body on it",
             };
             (format!("{name} is pressed to {part} of {whole}"), 1.0)
         }
@@ -243,7 +302,12 @@ fn front(answer: &Answer) -> String {
             asked.and.as_ref().map_or("", |own| own.name(asked))
         ),
     };
-    how + &within
+    let open = answer.front.iter().map(|own| own.own.design.lost.open(None)).max();
+    let open = match open {
+        None | Some(0) => String::new(),
+        Some(_) => "; designs that could not be evaluated may lie before it".to_owned(),
+    };
+    how + &within + &open
 }
 
 fn searched(answer: &Answer, best: &Design) -> String {
@@ -256,8 +320,13 @@ fn searched(answer: &Answer, best: &Design) -> String {
     } else {
         format!("{} of a Latin hypercube and the scene's own", counted(own.designs, "design"))
     };
-    let feasible = format!("{} of them keep everything", own.feasible);
+    let missing = match best.spread.iter().filter(|own| own.aim.is_nan()).count() {
+        0 => String::new(),
+        count => format!("{count} of them could not be evaluated, "),
+    };
+    let feasible = format!("{missing}{} of them keep everything", own.feasible);
     let agree = format!("{} of {} searches from the best end here", own.agree, own.starts);
-    let better = if own.is_grid && best.is_feasible { ", none of them better" } else { "" };
+    let is_told = own.is_grid && best.is_feasible && answer.is_claimed();
+    let better = if is_told { ", none of them better" } else { "" };
     format!("{spread}, {feasible}{better}; {agree}; {} solved", counted(own.solved, "design"))
 }

@@ -1,6 +1,8 @@
 //! Numbers of a scene, fitted to curves that were measured on it.
 
-use dashpot_analysis::Solve as _;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dashpot_analysis::{Cause, Misses, Solve as _, Unevaluated};
 use dashpot_fit::network::{
     Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Search, Test,
     fit_watched,
@@ -51,6 +53,9 @@ pub(super) struct FittedScene {
     pub(super) shown: Vec<Shown>,
     pub(super) measures: Vec<Measured>,
     pub(super) fit: NetworkFit,
+    /// What could not be evaluated on the way: the numbers there, those of the test behind them, and why.
+    pub(super) missing: Vec<(Vec<f64>, Cause)>,
+    pub(super) unevaluated: Unevaluated,
     /// Among which forms of a model this one was chosen.
     pub(super) among: Option<Among>,
     replaced: Option<Replaced>,
@@ -76,6 +81,14 @@ pub(super) struct Plan<'p> {
     pub(super) curves: Vec<(Asked, Target)>,
     known: Vec<Vec<Varied>>,
     pub(super) tests: Vec<Test>,
+    evaluated: Evaluated,
+}
+
+/// What a search evaluates.
+#[derive(Default)]
+struct Evaluated {
+    count: AtomicUsize,
+    misses: Misses,
 }
 
 /// Fits numbers of a scene, or the constants of the form of a model that the tests speak for.
@@ -139,7 +152,19 @@ impl<'p> Plan<'p> {
         let known = own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0)));
         let known = list(known);
         print_notes(&scene.notes);
-        Ok(Self { arguments, input, terminal, scene, tunables, numbers, curves, known, tests })
+        let evaluated = Evaluated::default();
+        Ok(Self {
+            arguments,
+            input,
+            terminal,
+            scene,
+            tunables,
+            numbers,
+            curves,
+            known,
+            tests,
+            evaluated,
+        })
     }
 
     /// What poses the scene of each test, with a form in the place of a model of it.
@@ -190,7 +215,7 @@ impl<'p> Plan<'p> {
         };
         let progress = Progress::new(self.tests.len(), self.terminal);
         let of = (&posers[..], &self.curves[..]);
-        let fit = searched((&begun, &self.tests), settings, of, &progress);
+        let fit = searched((&begun, &self.tests), settings, of, (&progress, &self.evaluated));
         fit.map_err(|fault| wrong(&fault, &self.curves))
     }
 
@@ -228,7 +253,9 @@ impl<'p> Plan<'p> {
         let has_scatter = self.arguments.scatter;
         let set = unvaried(&self.arguments.values.set, &self.numbers, &self.tunables);
         drop(posers);
-        let Self { scene, tunables, curves, known, tests, .. } = self;
+        let Self { scene, tunables, curves, known, tests, evaluated, .. } = self;
+        let Evaluated { count, misses } = evaluated;
+        let (missing, unevaluated) = (misses.all(), misses.told(count.into_inner()));
         Ok(FittedScene {
             scene,
             numbers,
@@ -238,6 +265,8 @@ impl<'p> Plan<'p> {
             shown,
             measures,
             fit,
+            missing,
+            unevaluated,
             among,
             replaced,
             has_scatter,
@@ -254,7 +283,7 @@ fn searched(
     (begun, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
     (posers, curves): (&[Poser<'_>], &[(Asked, Target)]),
-    progress: &Progress,
+    (progress, evaluated): (&Progress, &Evaluated),
 ) -> Result<NetworkFit, NetworkFault> {
     let point = |own: &'_ Poser<'_>, values: &[f64]| own.point(values);
     let points = posers.iter().map(|own| move |values: &[f64]| point(own, values));
@@ -275,6 +304,12 @@ fn searched(
         (None, Compared::Alone(own)) => own.curve(&posers[test], values),
         (Some(own), _) => own.curve(values),
         (None, Compared::Output(own)) => Err(format!("`{}` has no run", own.key())),
+    };
+    let model = |test: usize, values: &[f64]| {
+        evaluated.count.fetch_add(1, Ordering::Relaxed);
+        let missed =
+            |why: &String| evaluated.misses.note(values.to_vec(), Cause::scene(why.clone()));
+        model(test, values).inspect_err(missed)
     };
     let watch = |own: Search| progress.show(own);
     let found = fit_watched(begun, tests, settings, &model, &watch)?;

@@ -28,6 +28,7 @@ pub(super) fn object_of(own: &FittedScene) -> impl Serialize + '_ {
         dashpot: VERSION,
         title: &own.scene.title,
         file: &own.scene.file,
+        unevaluated: &own.unevaluated,
         parameters: (0..own.numbers.len()).map(|at| parameter(own, at)).collect::<Pairs<_, _>>(),
         determined: list(shown),
         measures: measures.collect::<Pairs<_, _>>(),

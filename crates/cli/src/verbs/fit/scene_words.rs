@@ -1,5 +1,6 @@
 //! What a fit of numbers of a scene says.
 
+use dashpot_analysis::Missing;
 use dashpot_fit::network::{Interval, Kind, Source, Test, TestFit};
 use dashpot_plot::Table;
 use serde::Serialize;
@@ -13,6 +14,7 @@ use crate::{
     input::title,
     numbers::{percent_signed, quantity, significant},
     output::{Study, Text, list},
+    unevaluated,
     varied::Varied,
 };
 
@@ -49,9 +51,30 @@ impl FittedScene {
         let own = &self.fit.numbers[at];
         match own {
             Interval { is_on_bound: true, .. } => "on its bound",
+            _ if self.is_open() => "not identified",
             _ if own.is_identified() && !self.is_entangled(at) => "identified",
             _ => "not identified",
         }
+    }
+
+    /// Whether something could not be evaluated within the intervals of all numbers.
+    fn is_open(&self) -> bool {
+        let numbers = &self.fit.numbers;
+        self.missing.iter().any(|(place, _)| {
+            numbers.iter().zip(place).all(|(own, at)| {
+                let [low, high] = own.ends;
+                low.is_none_or(|low| low <= *at) && high.is_none_or(|high| *at <= high)
+            })
+        })
+    }
+
+    /// What could not be evaluated.
+    fn missed(&self) -> Vec<String> {
+        let place = |own: &Missing| {
+            let each = self.numbers.iter().zip(&own.values);
+            list(each.map(|(own, at)| format!("{} = {}", own.name, value(own, *at)))).join(", ")
+        };
+        unevaluated::sentences(&self.unevaluated, "curve", place)
     }
 
     /// Whether the structure says that it cannot be told.
@@ -139,7 +162,8 @@ impl FittedScene {
     /// What comes first.
     fn said_first(&self) -> Vec<String> {
         let fit = &self.fit;
-        let mut all: Vec<String> = list(self.among.iter().filter_map(Among::said_first));
+        let mut all: Vec<String> = self.missed();
+        all.extend(self.among.iter().filter_map(Among::said_first));
         if fit.is_stopped {
             all.push(STOPPED.to_owned());
         } else if !fit.is_converged {

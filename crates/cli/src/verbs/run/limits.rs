@@ -3,6 +3,7 @@
 use dashpot_analysis::{
     Bound, Judged, Judgement, Limit, MeasureReport, Reason, RunReport, Warning,
 };
+use dashpot_units::percent;
 
 use super::{
     measures::unit_of_kind,
@@ -44,8 +45,7 @@ pub(super) fn short(run: &RunReport, judged: &Judged<'_>) -> String {
     let value = value.map_or(String::new(), |value| format!(", {value}"));
     let margin = margin(judged).map(|margin| format!(", margin {margin}"));
     let chance = scatter::chance(judged).map_or(String::new(), |own| format!(", {own}"));
-    let doubt = beyond(run, judged).or_else(|| outside(run, judged));
-    let doubt = doubt.map_or(String::new(), |own| format!(", {own}"));
+    let doubt = doubt(run, judged).map_or(String::new(), |own| format!(", {own}"));
     word.to_owned() + &value + &margin.unwrap_or_default() + &doubt + &chance
 }
 
@@ -63,9 +63,13 @@ fn text(run: &RunReport, judged: &Judged<'_>) -> String {
     let bare = if is_bare { "; its error is not known" } else { "" };
     let advice = advice(run, judged).map_or(String::new(), |own| format!("; {own}"));
     let stated = stated(limit, judged.measure);
-    let doubt = beyond(run, judged).or_else(|| outside(run, judged));
-    let doubt = doubt.map_or(String::new(), |own| format!("; {own}"));
+    let doubt = doubt(run, judged).map_or(String::new(), |own| format!("; {own}"));
     format!("{} {value}, {stated}{margin}{doubt}{chance}{bare}{mean}{advice}", limit.key)
+}
+
+/// Why a limit that would be kept is not kept for certain.
+fn doubt(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
+    beyond(run, judged).or_else(|| outside(run, judged)).or_else(|| of_designs(run, judged))
 }
 
 /// What is left to the bound; nothing where the value hangs on what is not known.
@@ -87,6 +91,12 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         return Some(format!("{designs} of the sample {are} pressed beyond a law or a thickness"));
     };
     let what = match warning {
+        Warning::BeyondLaw(own) if own.at_equator => {
+            format!(
+                "{} deeper in than the radius of its body, where its shape is not modelled",
+                own.name
+            )
+        }
         Warning::BeyondLaw(own) => format!(
             "{} beyond the points of its law, where a foam that densifies is stiffer than the straight line that is \
              taken",
@@ -96,6 +106,13 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         other => format!("{} beyond its thickness", other.names().join(", ")),
     };
     Some(format!("it would pass, but hangs on {what}"))
+}
+
+/// That a limit is kept at the means alone.
+fn of_designs(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
+    let is_it = judged.judgement == Judgement::Undecided(Reason::Scatter);
+    let wanted = run.scatter.as_ref().filter(|_| is_it)?.wanted;
+    Some(format!("it passes at the means, but {} of the designs are wanted to", percent(wanted, 3)))
 }
 
 /// What exceeds a limit that is kept in the impact, outside of it.
@@ -196,7 +213,8 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         | Reason::Outside
         | Reason::NoValue
         | Reason::OtherAxes
-        | Reason::Clipped => return None,
+        | Reason::Clipped
+        | Reason::Scatter => return None,
         Reason::Cut | Reason::Error => return Some("a larger `--sample` may decide".to_owned()),
     }
     let value = judged.measure?.value?;

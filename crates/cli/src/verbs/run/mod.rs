@@ -259,7 +259,8 @@ impl Answer {
                 format!("{}: {warning}", methods.join(", "))
             }
         };
-        grouped.into_iter().map(text).collect()
+        let missing = self.runs.iter().flat_map(scatter::missing);
+        missing.chain(grouped.into_iter().map(text)).collect()
     }
 
     /// How far the runs are apart in each measure: the largest difference from the first one.

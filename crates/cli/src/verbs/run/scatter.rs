@@ -5,6 +5,7 @@ use std::{num::NonZero, thread::available_parallelism};
 use clap::Args;
 use dashpot_analysis::{
     Band, Judged, Odds, RunError, RunReport, ScatterReport, ScatterSource, SolveSettings,
+    Unevaluated,
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch, columns, sweep},
 };
 use dashpot_plot::Table;
@@ -20,6 +21,7 @@ use crate::{
     error::CliError,
     input::load,
     numbers::{self, MOST_DIGITS, Unit, rounded},
+    unevaluated,
     varied::messages,
 };
 
@@ -176,11 +178,16 @@ pub(crate) fn lines(run: &RunReport) -> Vec<Line> {
         sources(&own.sources),
         designs(own.designs, own.seed)
     );
-    let unsolved = own.why.as_ref().map(|why| {
-        format!("{} of the designs could not be solved, the first because {why}", own.unsolved)
-    });
-    let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text)).chain(unsolved);
+    let texts = [first].into_iter().chain(own.sources.iter().filter_map(cut_text));
     texts.map(|text| Line { label: "scatter", text }).collect()
+}
+
+/// Which designs of the sample have no solution; measures that single ones lack are told by their bands.
+pub(super) fn missing(run: &RunReport) -> Vec<String> {
+    let Some(own) = &run.scatter else { return Vec::new() };
+    let causes = own.unsolved().cloned().collect();
+    let all = Unevaluated { causes, ..own.unevaluated.clone() };
+    unevaluated::sentences(&all, "design", |_| String::new())
 }
 
 /// The numbers that were drawn, those by themselves and those together.
@@ -259,8 +266,15 @@ pub(crate) fn table(run: &RunReport) -> Option<Table> {
     let header = ["measure", "mean", "standard\ndeviation", "2.5 %", "97.5 %", "unit"];
     let zeros = Zeros::of(std::iter::once(run));
     let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
-    let rows = bands.map(|band| row(run, band, &zeros));
-    Some(Table::new("Scatter", &header, rows))
+    let bands: Vec<&Band> = bands.collect();
+    // A band is that of the designs that have a value.
+    let is_whole = bands.iter().all(|own| own.without == 0);
+    let header = header.into_iter().chain((!is_whole).then_some("of the\ndesigns"));
+    let rows = bands.iter().map(|band| {
+        let share = (!is_whole).then(|| covered(band));
+        row(run, band, &zeros).into_iter().chain(share).collect()
+    });
+    Some(Table::new("Scatter", &header.collect::<Vec<_>>(), rows))
 }
 
 /// Between which values of each measure 95 % of the designs drawn lie, of several scenes side by side; nothing where
@@ -287,7 +301,9 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
             let [_, _, low, high] = own
                 .as_ref()
                 .map_or(["–"; 4].map(str::to_owned), |own| cells(own, &unit, rounding));
-            format!("{low} to {high}")
+            let part = own.as_ref().filter(|own| (1..own.designs).contains(&own.without));
+            let part = part.map_or(String::new(), |own| format!(" of {}", covered(own)));
+            format!("{low} to {high}{part}")
         };
         let cells = found.iter().map(cell);
         [first.key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
@@ -313,6 +329,11 @@ fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
     let unit = unit_of(kind, [band].into_iter(), rounding);
     let [mean, deviation, low, high] = cells(band, &unit, rounding);
     vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]
+}
+
+/// Which part of the designs a band covers.
+fn covered(band: &Band) -> String {
+    percent(band.share(), FEW + 1)
 }
 
 /// Mean, deviation and both ends of a band, without what rounding leaves of zero.

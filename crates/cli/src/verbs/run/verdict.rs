@@ -1,10 +1,10 @@
 //! The answer in a few lines, and what was left out of a run.
 
 use dashpot_analysis::{
-    Contact, ContactReport, MeasureReport, Note, Partial, RunReport,
+    Compression, Contact, ContactReport, MeasureReport, Note, Partial, RunReport,
     measures::{Hic, STANDARD_GRAVITY},
     partial::{Cost, Verification, Why},
-    verdict::{Depth, Ending, Opened, Peak, Reached, TakenUp, Verdict, WholeForce},
+    verdict::{Depth, Ending, Layer, Opened, Peak, Reached, TakenUp, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
 use dashpot_units::percent;
@@ -18,6 +18,8 @@ use crate::numbers::{
     self, Unit, apart, bound, constant, duration, estimate, quantity, rounded, share, significant,
 };
 
+/// How far something is pressed.
+const DEFLECTION: &str = "max. deflection";
 /// Digits of a number that is read in passing.
 const DIGITS: usize = 4;
 /// Accuracies beyond this are not to be had with double precision.
@@ -78,7 +80,7 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("of it", of_it),
         ("elsewhere", elsewhere),
         ("peak g", found.peak_acceleration.map(|peak| words.peak_g(peak))),
-        ("max. deflection", found.depth.map(|depth| words.depth(depth))),
+        (DEFLECTION, found.depth.map(|depth| words.depth(depth))),
         ("energy", found.energy.as_ref().map(|energy| words.energy(energy))),
         ("contact", found.ending.as_ref().map(|ending| words.ending(ending))),
         ("indices", indices(run)),
@@ -88,6 +90,10 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
         ("next digit", next_digit(answer, run)),
     ];
     let lines = lines.into_iter().filter_map(|(label, text)| Some(Line { label, text: text? }));
+    let mut lines: Vec<Line> = lines.collect();
+    let behind = lines.iter().position(|own| own.label == DEFLECTION).map_or(0, |own| own + 1);
+    let layers = found.layers.iter().map(|own| Line { label: DEFLECTION, text: layer(own) });
+    lines.splice(behind..behind, layers);
     let floor = answer.floor.as_ref().map_or_else(Vec::new, |own| own.lines(run));
     let first = limits::lines(run).into_iter().chain(scatter::lines(run));
     first.chain(lines).chain(floor).collect()
@@ -150,16 +156,7 @@ impl Words<'_> {
         let (Some(own), Peak::Finite { measure, .. }) = (depth.compression, depth.peak) else {
             return text;
         };
-        let (left, strain) = (own.left(), own.strain());
-        let limit = constant(own.thickness, "m");
-        let digits = numbers::digits(left, measure.error, TIME_DIGITS);
-        let rest = quantity(left.abs(), "m", digits);
-        let strain = percent(strain, if strain < 1.0 { 2 } else { 3 });
-        if own.is_through() {
-            format!("{text}: {strain} of {limit}, {rest} MORE than there is")
-        } else {
-            format!("{text}: {strain} of {limit}, {rest} left")
-        }
+        text + &beside_thickness(&own, measure.error, depth.is_on_stop)
     }
 
     fn energy(&self, taken_up: &TakenUp<'_>) -> String {
@@ -222,11 +219,11 @@ impl Words<'_> {
                     let digits = numbers::digits(1.0, error, TIME_DIGITS);
                     let text = quantity(leaving.speed, "m/s", digits);
                     let how = if leaving.returns { "rebounds" } else { "goes on" };
-                    let restitution = leaving.restitution.and_then(|own| Some((own, own.value?)));
-                    let restitution = restitution.map_or(String::new(), |(own, value)| {
-                        let digits = numbers::digits(value, own.error, TIME_DIGITS);
-                        format!(", coefficient of restitution {}", significant(value, digits))
-                    });
+                    let restitution =
+                        leaving.restitution.map_or(String::new(), |(value, error)| {
+                            let digits = numbers::digits(value, error, TIME_DIGITS);
+                            format!(", coefficient of restitution {}", significant(value, digits))
+                        });
                     format!("; {} {how} at {text}{restitution}", leaving.impactor)
                 });
                 let again = contact.map_or(String::new(), again);
@@ -308,6 +305,26 @@ impl Words<'_> {
         };
         named(&reached.small, &small) + &named(&reached.unknown, &unknown)
     }
+}
+
+/// `: 71 % of 30 mm, 8.7 mm left`.
+fn beside_thickness(own: &Compression, error: Option<f64>, is_on_stop: bool) -> String {
+    let (left, strain) = (own.left(), own.strain());
+    let limit = constant(own.thickness, "m");
+    let rest = quantity(left.abs(), "m", numbers::digits(left, error, TIME_DIGITS));
+    let strain = percent(strain, if strain < 1.0 { 2 } else { 3 });
+    let rest = if own.is_through() { rest + " MORE than there is" } else { rest + " left" };
+    let stop = if is_on_stop { ", ON ITS STOP" } else { "" };
+    format!(": {strain} of {limit}, {rest}{stop}")
+}
+
+/// How far another element with a thickness is pressed.
+fn layer(own: &Layer<'_>) -> String {
+    let Compression { deepest, time, .. } = own.compression;
+    let [deepest, time] =
+        [(deepest, "m"), (time, "s")].map(|own| quantity(own.0, own.1, TIME_DIGITS));
+    let rest = beside_thickness(&own.compression, None, own.is_on_stop);
+    format!("{deepest} in {} at {time}{rest}", own.element)
 }
 
 /// The first of these figures in words, with a semicolon behind them.

@@ -76,8 +76,13 @@ pub(super) fn best_table(swept: &Swept, designs: &[Design]) -> Table {
         list(given.chain(values).chain([percent_signed(own.margin)]))
     };
     let is_kept = designs.first().is_some_and(|own| own.passes);
-    let caption =
-        if is_kept { "Best designs" } else { "No design keeps all limits: the nearest ones" };
+    let is_whole = report.unevaluated().is_empty();
+    let caption = match (is_kept, is_whole) {
+        (true, true) => "Best designs",
+        (true, false) => "Best of the designs that could be evaluated",
+        (false, true) => "No design keeps all limits: the nearest ones",
+        (false, false) => "No design that could be evaluated keeps all limits: the nearest ones",
+    };
     let of = match &columns[..] {
         [only] => format!(", by the margin of {}", quantity(&report.columns[*only])),
         _ => ", by the smallest margin to any limit".to_owned(),

@@ -31,6 +31,10 @@ pub(super) fn kept(swept: &Swept) -> Vec<String> {
             0 => String::new(),
             count => format!(", {count} undecided{beyond}"),
         };
+        let missing = match judged.iter().filter(|own| own.is_none()).count() {
+            0 => String::new(),
+            count => format!(", {count} without a value"),
+        };
         let limit = words::limit(&report.columns[*column], own);
         let stretches = stretches(swept, at, &judged);
         let [within, by_words] = match &stretches[..] {
@@ -40,7 +44,7 @@ pub(super) fn kept(swept: &Swept) -> Vec<String> {
         };
         let of = judged.len();
         format!(
-            "{} {limit}: {pass} of {of} points pass{within}, {fail} fail{open}{by_words}",
+            "{} {limit}: {pass} of {of} points pass{within}, {fail} fail{open}{missing}{by_words}",
             own.key
         )
     };

@@ -261,7 +261,12 @@ enum Values<'v> {
 }
 
 impl Study for Swept {
+    fn warnings(&self) -> Vec<String> {
+        words::missing(self)
+    }
+
     fn text(&self, text: &mut Text) {
+        text.warnings(&self.warnings());
         text.title(title(&self.scene));
         self.varied.in_words().iter().for_each(|in_word| text.faint(in_word));
         text.blank();

@@ -45,11 +45,18 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
 pub(super) fn verdict(swept: &Swept, best: &[super::best::Design]) -> Vec<String> {
     let count = swept.report.points();
     let what = if swept.varied.is_of_rows() { "design" } else { "point" };
-    let mut lines = vec![format!("{} solved", counted(count, what))];
+    let missing = swept.report.unevaluated().count;
+    let solved = counted(count, what);
+    let mut lines = vec![match missing {
+        0 => format!("{solved} solved"),
+        missing => format!("{solved}, {missing} of them not evaluated"),
+    }];
     lines.extend(kept::kept(swept));
     if let Some(first) = best.first().filter(|_| !swept.report.limits.is_empty()) {
         let word = if first.passes { "best" } else { "nearest to passing" };
-        lines.push(format!("{word}: {}, {}", swept.at(first.point), first.margin_in_words()));
+        let among = if missing > 0 { " of those evaluated" } else { "" };
+        let margin = first.margin_in_words();
+        lines.push(format!("{word}{among}: {}, {margin}", swept.at(first.point)));
     }
     lines
 }

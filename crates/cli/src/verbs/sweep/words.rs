@@ -1,8 +1,8 @@
 //! What was varied, the ends of what was found, and what is to be said of it.
 
 use dashpot_analysis::{
-    Limit, Warning,
-    sweep::{Column, Estimates, Gap, Grid, PartialOfSweep, SweepReport, SweepWarning},
+    Limit, Missing, Warning,
+    sweep::{Column, Estimates, Grid, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
@@ -12,6 +12,7 @@ use super::{Form, SweepArguments, Swept, Varied, kept, unmoved::unmoved};
 use crate::{
     numbers::{self, Unit, apart, bound, counted, estimate, significant},
     output::list,
+    unevaluated,
     verbs::run::{level, unit_of_kind},
 };
 
@@ -189,7 +190,11 @@ pub(super) fn summary(report: &SweepReport, is_sample: bool) -> Table {
             own.map_or("–".to_owned(), |own| unit(column, own).text(own, DIGITS))
         };
         let values = header.iter().map(|(_, share)| text(quantile(&finite, *share)));
-        [name(column)].into_iter().chain(values).collect()
+        let part = match finite.len() {
+            count if count == report.points() => String::new(),
+            count => format!(" ({count} of {})", report.points()),
+        };
+        [name(column) + &part].into_iter().chain(values).collect()
     });
     let header: Vec<&str> = ["measure"].into_iter().chain(header.iter().map(|own| own.0)).collect();
     Table::new("", &header, rows)
@@ -240,8 +245,6 @@ pub(super) fn short(number: f64) -> String {
     }
 }
 
-/// Faults of so many kinds are counts.
-const MOST_FAULTS: usize = 3;
 /// Warnings of so many kinds are counts.
 const MOST_WARNED: usize = 8;
 
@@ -254,7 +257,7 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
     all.extend(solving(swept));
     all.extend(warnings(swept, report, points));
     all.extend(report.partial.iter().flat_map(left_out));
-    all.extend(missing(swept));
+    all.extend(infinite(report));
     all.extend(unmoved(swept));
     all
 }
@@ -263,8 +266,24 @@ pub(super) fn notes(swept: &Swept) -> Vec<String> {
 pub(super) fn warned(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let partial = report.partial.iter().flat_map(left_out);
-    let all = warnings(swept, report, points).into_iter().chain(missing(swept));
-    all.chain(partial).chain(unmoved(swept)).collect()
+    let all = missing(swept).into_iter().chain(infinite(report));
+    all.chain(warnings(swept, report, points)).chain(partial).chain(unmoved(swept)).collect()
+}
+
+/// The columns that are infinite at some points.
+fn infinite(report: &SweepReport) -> Vec<String> {
+    let count = |at: usize| {
+        report.gaps.iter().filter(|own| own.is_infinite && own.column == Some(at)).count()
+    };
+    let counts = (0..report.columns.len()).map(|at| (at, count(at))).filter(|own| own.1 > 0);
+    let text = |(at, count): (usize, usize)| {
+        format!(
+            "`{}` is infinite at {count} of {} points",
+            name(&report.columns[at]),
+            report.points()
+        )
+    };
+    list(counts.map(text))
 }
 
 /// How it was solved.
@@ -365,35 +384,8 @@ fn left_out(partial_of_sweep: &PartialOfSweep) -> Vec<String> {
     all
 }
 
-fn missing(swept: &Swept) -> Vec<String> {
-    let (report, points) = (&swept.report, swept.report.points());
-    let mut failed: Vec<(&Gap, usize)> = Vec::new();
-    for gap in report.gaps.iter().filter(|gap| gap.column.is_none()) {
-        match failed.iter_mut().find(|known| known.0.reason == gap.reason) {
-            Some(known) => known.1 += 1,
-            None => failed.push((gap, 1)),
-        }
-    }
-    let sentence = |(first, count): &(&Gap, usize)| {
-        let have = if *count == 1 { "has" } else { "have" };
-        let (points, first_at) = (counted(*count, "point"), swept.at(first.point));
-        format!("{points} {have} no solution, first at {first_at}: {}", first.reason)
-    };
-    let mut all: Vec<String> = failed.iter().take(MOST_FAULTS).map(sentence).collect();
-    if let Some(more @ 1..) = failed.len().checked_sub(MOST_FAULTS) {
-        all.push(format!("and {more} more reasons why points have no solution"));
-    }
-    let mut counts: Vec<(usize, &str, usize)> = Vec::new();
-    for gap in &report.gaps {
-        let Some(column) = gap.column else { continue };
-        match counts.iter_mut().find(|known| (known.0, known.1) == (column, gap.reason.as_str())) {
-            Some(known) => known.2 += 1,
-            None => counts.push((column, &gap.reason, 1)),
-        }
-    }
-    for (column, reason, count) in counts.into_iter().take(MOST_FAULTS) {
-        let name = name(&report.columns[column]);
-        all.push(format!("`{name}` has no value at {count} of {points} points: {reason}"));
-    }
-    all
+/// What could not be evaluated.
+pub(super) fn missing(swept: &Swept) -> Vec<String> {
+    let at = |own: &Missing| swept.at(own.first);
+    unevaluated::sentences(&swept.report.unevaluated(), "point", at)
 }

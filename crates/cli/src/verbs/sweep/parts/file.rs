@@ -160,7 +160,7 @@ fn columns<'c>(
         .flat_map(|own| own.points.iter().map(|&point| (point, own.warning.code().to_owned())));
     let missing = report.gaps.iter().map(|gap| {
         let of = gap.column.map_or(String::new(), |at| name(&report.columns[at]) + ": ");
-        (gap.point, of + &gap.reason)
+        (gap.point, of + &gap.cause.message)
     });
     let said = [joined(report, warned), joined(report, missing)];
     parameters.chain(found).chain(judged).chain(said)

@@ -79,7 +79,7 @@ impl Summary {
     /// What is known of the points of a report, the first of which has the number `start` in the whole grid.
     pub(super) fn of(report: &SweepReport, start: usize) -> Self {
         let failed = report.gaps.iter().filter(|own| own.column.is_none()).map(|own| {
-            let text = own.reason.clone();
+            let text = own.cause.message.clone();
             Counted { code: text.clone(), text, points: 1, first: start + own.point }
         });
         let extremes = |at: usize| {

@@ -1,0 +1,94 @@
+//! How far everything that has a thickness is pressed.
+
+use dashpot_network::{ConnectionOutputs, parameters::Kind as _};
+
+use super::{Found, Peak};
+use crate::{Compression, MeasureReport, measures::PeakDeformation};
+
+/// How far a pad is pressed.
+#[derive(Debug, Clone, Copy)]
+pub struct Depth<'r> {
+    /// Its largest deformation.
+    pub peak: Peak<'r>,
+    /// That beside its thickness, where it has one.
+    pub compression: Option<Compression>,
+    /// Whether it meets its stop.
+    pub is_on_stop: bool,
+}
+
+/// How far an element is pressed over the run, that has a thickness.
+#[derive(Debug, Clone, Copy)]
+pub struct Layer<'r> {
+    /// The element.
+    pub element: &'r str,
+    /// Its largest deformation beside its thickness.
+    pub compression: Compression,
+    /// Whether it meets its stop.
+    pub is_on_stop: bool,
+}
+
+impl<'r> Depth<'r> {
+    /// The element.
+    pub(super) fn element(self) -> &'r str {
+        match self.peak {
+            Peak::Finite { measure, .. } | Peak::Infinite { measure, .. } => &measure.target,
+        }
+    }
+}
+
+impl<'r> Found<'r> {
+    pub(super) fn depth(self) -> Option<Depth<'r>> {
+        let on_stop = |measure: &MeasureReport| {
+            self.0.assembly.position(&measure.target).is_some_and(|at| self.is_on_stop(at))
+        };
+        let pads = self.of_kind(PeakDeformation::KIND).filter_map(|measure| {
+            let at = self.0.assembly.position(&measure.target)?;
+            let connection = &self.connections()[at];
+            let (thickness, window) = connection.thickness.zip(measure.window)?;
+            if let Some(struck) = self.0.trajectory.to_come().filter(|own| own.element == at) {
+                let deepest = [struck.deepest.value, struck.deepest.time];
+                return Some((measure, Compression::new(deepest, measure.error, thickness)));
+            }
+            let solution = self.0.solution();
+            let deformation = solution.signal(connection.deformation);
+            Some((measure, Compression::of(deformation, window, thickness)))
+        });
+        let strain = |own: &(_, Compression)| -own.1.strain();
+        let tightest = pads.min_by(|one, other| strain(one).total_cmp(&strain(other)));
+        if let Some((measure, own)) = tightest {
+            let peak = self.finite(measure, measure.value?);
+            return Some(Depth { peak, compression: Some(own), is_on_stop: on_stop(measure) });
+        }
+        let (measure, value) = self.largest(PeakDeformation::KIND)?;
+        let peak = self.finite(measure, value);
+        Some(Depth { peak, compression: None, is_on_stop: on_stop(measure) })
+    }
+
+    /// Whether a pad meets its stop.
+    fn is_on_stop(self, element: usize) -> bool {
+        let stop = self.0.assembly.pads.iter().find(|own| own.element == element);
+        let stop = stop.and_then(|own| self.connections()[own.stop?].force);
+        // What is struck and followed plainly has not met any.
+        let stop = stop.filter(|_| self.0.trajectory.to_come().is_none());
+        let solution = stop.is_some().then(|| self.0.solution());
+        solution.zip(stop).is_some_and(|(own, force)| {
+            own.keeps(force) && own.signal(force).maximum((0.0, own.end())).value > 0.0
+        })
+    }
+
+    /// All elements with a thickness but this one, as far as they are kept.
+    pub(super) fn layers(self, but: Option<&str>) -> Vec<Layer<'r>> {
+        let all = self.connections().iter().enumerate();
+        let all = all.filter(|own| but != Some(own.1.name.as_str()) && !own.1.is_rigid);
+        let layer = |(at, own): (usize, &'r ConnectionOutputs)| {
+            let thickness = own.thickness?;
+            let solution = self.0.solution();
+            let run = (0.0, solution.end());
+            let compression = solution
+                .keeps(own.deformation)
+                .then(|| Compression::of(solution.signal(own.deformation), run, thickness))?;
+            Some(Layer { element: &own.name, compression, is_on_stop: self.is_on_stop(at) })
+        };
+        all.filter_map(layer).collect()
+    }
+}
