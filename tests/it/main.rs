@@ -38,6 +38,7 @@ mod examples;
 mod files;
 mod fit;
 mod fit_folders;
+mod fit_minimum;
 mod fit_mistakes;
 mod fit_mixed;
 mod floors;

@@ -11,7 +11,12 @@ use std::{iter::repeat_n, ops::Range};
 use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
 
-use super::{Curve, Kind, Model, Number, Test, jump::Jump, record::Record, watch::Watched};
+use super::{
+    Curve, Kind, Model, Number, Test,
+    jump::{Jump, ramped},
+    record::Record,
+    watch::{Phase, Watched},
+};
 use crate::optimum::Residuals;
 
 /// Step of differences in logarithms of numbers, and in standard deviations.
@@ -83,6 +88,11 @@ impl<'t> Task<'t> {
         self.watched.is_some_and(Watched::is_stopped)
     }
 
+    /// Something else begins; returns whether it still may.
+    pub(super) fn begin_phase(&self, phase: Phase) -> bool {
+        self.watched.is_none_or(|own| own.begin(phase))
+    }
+
     /// Rows of all tests, and of what is known of their own unknowns.
     pub(super) fn rows(&self) -> usize {
         self.measured() + self.tests.iter().map(Test::priors).sum::<usize>() + self.jumps().count()
@@ -123,6 +133,18 @@ impl<'t> Task<'t> {
     /// Says where the curve of a test jumps among its samples.
     pub(super) fn set_jump(&mut self, test: usize, jump: Option<Jump>) {
         self.records[test].jump = jump;
+    }
+
+    /// Says which rows of a test stand beside other jumps of its curve.
+    pub(super) fn set_skipped(&mut self, test: usize, skipped: Vec<usize>) {
+        self.records[test].skipped = skipped;
+    }
+
+    /// Takes averages over one of so many parts of a pulse for the rows, or the samples. Whether those of any test are
+    /// averages.
+    pub(super) fn average(&mut self, parts: Option<usize>) -> bool {
+        let each = self.records.iter_mut().zip(self.tests);
+        each.map(|(own, test)| own.average(test, parts)).fold(false, |one, other| one | other)
     }
 
     /// The tests whose curves jump, each with the place of its shift.
@@ -273,7 +295,10 @@ impl<'t> Task<'t> {
                     curve.value(time)
                 }
             };
-            return recorder.record(|time| value(time - shift));
+            let mut values: Vec<f64> =
+                recorder.times().iter().map(|time| value(time - shift)).collect();
+            ramped(&mut values, recorder.times(), &|time| value(time - shift));
+            return recorder.passed(values);
         };
         let slope = (curve.value(NEXT * step) - start) / (NEXT * step);
         let value = |(at, time): (usize, &f64)| match time - shift {

@@ -97,7 +97,9 @@ pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError
     let choice = choose(&candidates, plan.arguments.error);
     let (information, samples) = information(&list(fits.iter().map(Option::as_ref)), &plan.tests);
     let open = |own: &Option<NetworkFit>| {
-        own.iter().flat_map(|own| &own.numbers).filter(|own| !own.is_identified()).count()
+        own.iter()
+            .flat_map(|own| (0..own.numbers.len()).filter(|at| !own.is_identified(*at)))
+            .count()
     };
     let among = Among {
         model: named.name.clone(),

@@ -116,8 +116,9 @@ pub(crate) struct FitArguments {
     /// Whether rows that are far off count by their magnitude, in place of its square.
     #[arg(long, value_name = "WHEN", default_value = "on")]
     robust: Switch,
-    /// From how many starts numbers of a scene are searched: its own, and others over the bounds.
-    #[arg(long, value_name = "NUMBER", value_parser = STARTS.read(), default_value_t = 5)]
+    /// From how many starts numbers of a scene are searched at most: its own, and others over the bounds, until enough
+    /// of them end at the same minimum.
+    #[arg(long, value_name = "NUMBER", value_parser = STARTS.read(), default_value_t = 10)]
     starts: usize,
     /// The seed of these starts.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
