@@ -61,7 +61,11 @@ fn a_pad_whose_force_jumps_is_found_from_twice_its_stiffness_however_long_the_re
         for _ in 0..runs {
             let answer = fitted(&record(&mut stream, before));
             assert_eq!(answer["converged"], true, "{before}");
-            assert!(answer["tests"][0]["rms"].as_f64().unwrap() < 2.0, "{before}: {}", answer["tests"][0]["rms"]);
+            assert!(
+                answer["tests"][0]["rms"].as_f64().unwrap() < 2.0,
+                "{before}: {}",
+                answer["tests"][0]["rms"]
+            );
             for (at, name) in ["K", "C"].into_iter().enumerate() {
                 let own = &answer["parameters"][name];
                 assert_eq!(own["identified"], true, "{own}");
@@ -82,7 +86,8 @@ fn what_did_not_converge_or_ended_on_a_bound_has_no_interval_and_is_not_identifi
     let folder = TempDir::new().unwrap();
     let (scene, record) = (file(&folder, "pad.toml", SCENE), file(&folder, "drop.csv", &rows));
     let to = format!("{}:acc=head.acceleration", text(&record));
-    let asked = ["fit", text(&scene), "--to", &to, "--vary", "K=5..20 kN/m", "--vary", "C=10..5000 N s/m"];
+    let asked =
+        ["fit", text(&scene), "--to", &to, "--vary", "K=5..20 kN/m", "--vary", "C=10..5000 N s/m"];
     let bound = json(&[&asked[..], &["--json"]].concat());
     let parameters = &bound["parameters"];
     assert_eq!(parameters["K"]["on_bound"], true);

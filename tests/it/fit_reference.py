@@ -58,7 +58,7 @@ class Pad:
         return self.curve
 
     def record(self, seed):
-        curve, draw = self.solved(), random.Random(seed)
+        curve, draw = self.solved(), random.Random(f"{self.element} {seed}")
         late, zero = BEFORE + draw.random() / RATE, draw.gauss(0, self.noise)
         rows = ["t [s],acc [m/s^2]"]
         for at in range(int((BEFORE + self.length) * RATE)):
@@ -180,7 +180,7 @@ PADS = {
 
 def starts(pad, seed):
     """Three times or a third of the truth, within the bounds."""
-    draw = random.Random(-1 - seed)
+    draw = random.Random(f"start {pad.element} {seed}")
     return {n: min(max(own[0] * 3.0 ** draw.choice([-1, 1]), own[1]), own[2]) for n, own in pad.numbers.items()}
 
 

@@ -82,8 +82,10 @@ pub fn sum(left: &[f64], robust_scale: Option<f64>) -> f64 {
     left.iter().map(|own| counted(own.abs())).sum()
 }
 
-/// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one.
+/// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one, or by less than this part of
+/// what a row adds to it: by a tenth of a standard deviation.
 const SETTLED: f64 = 1e-7;
+const OF_A_ROW: f64 = 1e-2;
 /// So is one whose unknowns that step would move by no more than this part of the room between their bounds: of exact
 /// records what is left is rounding.
 const SHORT: f64 = 1e-10;
@@ -110,9 +112,10 @@ fn is_settled(
     (0..free.len()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
     let right = DVector::from_iterator(free.len(), free.iter().map(|at| gradient[*at]));
     let step = normal.cholesky().map(|own| own.solve(&right));
+    let part = SETTLED.max(OF_A_ROW / jacobian.nrows() as f64);
     step.is_some_and(|step| {
         let mut moved = step.iter().zip(&free);
-        0.5 * step.dot(&right) <= SETTLED * cost
+        0.5 * step.dot(&right) <= part * cost
             || moved.all(|(own, &at)| own.abs() <= SHORT * (upper[at] - lower[at]))
     })
 }

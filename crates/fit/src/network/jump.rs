@@ -2,9 +2,11 @@
 //!
 //! Samples tell between which two of them the jump was and no more, so what is left of them is a step function of the
 //! clock. Here it is decided which sample is the first behind the jump. From there the clock is a number that was
-//! measured besides, as good as even over the step between the two: with the mean and the standard deviation of that it
-//! takes part in the fit, in which no sample changes sides. Averaged over where in its step a blow falls, the estimate
-//! that is linear in these two has the covariance that is told, whatever the rest of the curve says of the clock.
+//! measured besides: the middle of the step between the two, with half of that for a standard deviation. With it the clock
+//! takes part in the fit, in which no sample changes sides. An error of at most one standard deviation adds no more to
+//! that of the estimate than its variance allows, so intervals hold the truth with at least what they state wherever in its
+//! step a blow falls. The deviation of what is even over the step, step/√12, holds that on the average alone: at its ends
+//! it comes down to 82 in place of 95 of 100, where the rest of the curve tells as much of the clock.
 
 use super::{
     Curve, Kind,
@@ -51,7 +53,7 @@ impl Jump {
     fn before(first: usize, times: &[f64]) -> Option<Self> {
         let ends = [*times.get(first.checked_sub(1)?)?, *times.get(first)?];
         let mean = 0.5 * (ends[0] + ends[1]);
-        let deviation = (ends[1] - ends[0]) / 12.0_f64.sqrt();
+        let deviation = 0.5 * (ends[1] - ends[0]);
         (deviation > 0.0).then_some(Self { first, ends, mean, deviation })
     }
 

@@ -130,13 +130,13 @@ impl NetworkFit {
     }
 
     /// Whether the tests determine a number, by its position: it is that of the lowest minimum, which lies between all
-    /// bounds, and noise tells that from any other by this number.
+    /// bounds, along what is determined, and noise tells that from any other by this number.
     pub fn is_identified(&self, at: usize) -> bool {
         let own = &self.numbers[at];
         let [Some(low), Some(high)] = own.ends else { return false };
         self.is_converged()
             && own.is_identified()
-            && !self.numbers.iter().any(|own| own.is_on_bound)
+            && (self.undetermined.ncols() > 0 || !self.numbers.iter().any(|own| own.is_on_bound))
             && self.others.iter().all(|other| (low..=high).contains(&other.values[at]))
     }
 

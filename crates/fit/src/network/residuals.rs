@@ -19,8 +19,9 @@ use super::{
 };
 use crate::optimum::Residuals;
 
-/// Step of differences in logarithms of numbers, and in standard deviations.
-const STEP: f64 = 1e-3;
+/// Step of differences in logarithms of numbers, and in standard deviations: short, as a row at which a curve has a kink
+/// is passed by within it.
+const STEP: f64 = 2e-4;
 /// Step of differences in time, in parts of the length of a test.
 const TIME_STEP: f64 = 1e-5;
 /// Part of a step of the recorder over which a curve goes on straight before its start.
@@ -30,6 +31,8 @@ const NEXT: f64 = 0.125;
 const LATEST: f64 = 2.0;
 const STEPS: f64 = 2.0;
 const HIGHEST: f64 = 1.0;
+/// A clock that is put into the step in which its curve jumps may leave that by so many steps, as any estimate.
+const BEYOND: f64 = 3.0;
 /// What is known of a gain or a number is not left by more standard deviations.
 const FARTHEST: f64 = 8.0;
 
@@ -231,7 +234,10 @@ impl<'t> Task<'t> {
         };
         let mut both = [with(-1.0, |own| own.low), with(1.0, |own| own.high)];
         for (test, at, jump) in self.jumps() {
-            let ends = jump.ends.map(|end| end / self.records[test].length);
+            let [first, last] = jump.ends;
+            // The samples have chosen sides, so that nothing happens to the sum at these ends.
+            let ends = [first - BEYOND * (last - first), last + BEYOND * (last - first)];
+            let ends = ends.map(|end| end / self.records[test].length);
             both.iter_mut().zip(ends).for_each(|(side, end)| side[at] = end);
         }
         both
