@@ -56,28 +56,23 @@ fn fitted(rows: &str) -> Value {
 
 #[test]
 fn a_pad_whose_force_jumps_is_found_from_twice_its_stiffness_however_long_the_record_rests() {
-    for (before, runs) in [(4e-3, 20), (1e-3, 20), (20e-3, 5)] {
-        let (mut stream, mut held) = (Stream::new(11), [0; 2]);
-        for _ in 0..runs {
-            let answer = fitted(&record(&mut stream, before));
-            assert_eq!(answer["converged"], true, "{before}");
-            assert!(
-                answer["tests"][0]["rms"].as_f64().unwrap() < 2.0,
-                "{before}: {}",
-                answer["tests"][0]["rms"]
-            );
-            for (at, name) in ["K", "C"].into_iter().enumerate() {
-                let own = &answer["parameters"][name];
-                assert_eq!(own["identified"], true, "{own}");
-                let [low, high] = ["low", "high"].map(|end| own[end].as_f64().unwrap());
-                held[at] += i32::from((low..=high).contains(&TRUTH[at]));
-                assert!((own["value"].as_f64().unwrap() / TRUTH[at] - 1.0).abs() < 0.05, "{own}");
-            }
+    let (mut stream, mut held) = (Stream::new(11), [0; 2]);
+    let befores = [4e-3, 1e-3, 20e-3].into_iter().cycle();
+    for before in befores.take(45) {
+        let answer = fitted(&record(&mut stream, before));
+        assert_eq!(answer["converged"], true, "{before}");
+        let rms = answer["tests"][0]["rms"].as_f64().unwrap();
+        assert!(rms < 1.2, "{before}: {rms}");
+        for (at, name) in ["K", "C"].into_iter().enumerate() {
+            let own = &answer["parameters"][name];
+            assert_eq!(own["identified"], true, "{own}");
+            let [low, high] = ["low", "high"].map(|end| own[end].as_f64().unwrap());
+            held[at] += i32::from((low..=high).contains(&TRUTH[at]));
+            assert!((own["value"].as_f64().unwrap() / TRUTH[at] - 1.0).abs() < 0.05, "{own}");
         }
-        // 95 % of 20 is 19 with a standard deviation of 1.
-        println!("{before} s before the touch: {held:?} of {runs} hold the truth");
-        assert!(held.iter().all(|own| 20 * own >= 17 * runs), "{before}: {held:?} of {runs}");
     }
+    // 95 % of 45 is 42.75 with a standard deviation of 1.5.
+    assert!(held.iter().all(|own| *own >= 39), "{held:?} of 45 hold the truth");
 }
 
 #[test]

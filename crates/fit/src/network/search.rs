@@ -9,7 +9,7 @@ use super::{
     Band, NetworkFault, NetworkFit, NetworkSettings, Number, Other, Phase, Test,
     certainty::certainty, residuals::Task, starts::spread, told::FEWEST,
 };
-use crate::optimum::{Optimum, least_squares};
+use crate::optimum::{Optimum, Residuals as _, least_squares, sum};
 
 /// Starts whose sums differ by less than this part are at the same minimum.
 const SAME: f64 = 1e-4;
@@ -146,12 +146,15 @@ fn minima(
 fn promising(numbers: &[Number], settings: NetworkSettings, task: &mut Task<'_>) -> Vec<Vec<f64>> {
     let count = (SPREAD * numbers.len()).max(settings.starts - 1);
     task.average(Some(WINDOWS[0]));
-    let each = spread(numbers, count, settings.seed).into_iter().map(|values| {
+    let mut all: Vec<(f64, Vec<f64>)> = Vec::new();
+    for values in spread(numbers, count, settings.seed) {
         let left = task.begin(&values).map(|start| task.left(&start));
-        let cost = left.map_or(f64::NAN, |left| left.iter().map(|own| own * own).sum());
-        (if cost.is_nan() { f64::INFINITY } else { cost }, values)
-    });
-    let mut all: Vec<(f64, Vec<f64>)> = each.collect();
+        let cost = left.map_or(f64::INFINITY, |left| sum(&left, None));
+        if task.is_stopped(0, cost) {
+            break;
+        }
+        all.push((if cost.is_nan() { f64::INFINITY } else { cost }, values));
+    }
     all.sort_by(|one, other| one.0.total_cmp(&other.0));
     all.into_iter().map(|own| own.1).collect()
 }

@@ -87,8 +87,13 @@ pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError
     let mut fits: Vec<Option<NetworkFit>> = Vec::new();
     for (form, place) in forms.iter().zip(&places) {
         let fit = plan.fit(Some(place), Profile::Never);
-        if let Err(fault) = &fit {
-            note(&format!("`{}` is not fitted: {fault}", form.word()));
+        match &fit {
+            Err(fault) => note(&format!("`{}` is not fitted: {fault}", form.word())),
+            Ok(own) if !own.is_converged() => {
+                let word = form.word();
+                note(&format!("`{word}` is compared though its search has not converged"));
+            }
+            Ok(_) => {}
         }
         fits.push(fit.ok());
     }
