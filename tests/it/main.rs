@@ -40,6 +40,7 @@ mod examples;
 mod files;
 mod fit;
 mod fit_folders;
+mod fit_minimum;
 mod fit_mistakes;
 mod fit_mixed;
 mod fit_spectra;

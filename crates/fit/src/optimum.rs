@@ -66,8 +66,9 @@ pub fn least_squares(
     let (unknowns, cost) = (own.param().clone(), own.cost());
     let code = own.report.termination.code();
     let is_converged = match code {
-        TerminationCode::MaxIter => false,
-        TerminationCode::SolverFailed | TerminationCode::NumericalNoProgress => {
+        TerminationCode::MaxIter
+        | TerminationCode::SolverFailed
+        | TerminationCode::NumericalNoProgress => {
             is_settled(problem, [lower, upper], &unknowns, (robust_scale, cost))
         }
         _ => true,
@@ -82,8 +83,12 @@ pub fn sum(left: &[f64], robust_scale: Option<f64>) -> f64 {
     left.iter().map(|own| counted(own.abs())).sum()
 }
 
-/// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one.
+/// A minimum whose sum a step of Gauss and Newton would lower by less than this part is one, or by less than this part of
+/// what a row adds to it: by a tenth of a standard deviation.
 const SETTLED: f64 = 1e-7;
+const OF_A_ROW: f64 = 1e-2;
+/// So is one that no such step lowers by that part, nor half of it, and so on.
+const HALVINGS: i32 = 8;
 /// So is one whose unknowns that step would move by no more than this part of the room between their bounds: of exact
 /// records what is left is rounding.
 const SHORT: f64 = 1e-10;
@@ -110,11 +115,23 @@ fn is_settled(
     (0..free.len()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
     let right = DVector::from_iterator(free.len(), free.iter().map(|at| gradient[*at]));
     let step = normal.cholesky().map(|own| own.solve(&right));
-    step.is_some_and(|step| {
-        let mut moved = step.iter().zip(&free);
-        0.5 * step.dot(&right) <= SETTLED * cost
-            || moved.all(|(own, &at)| own.abs() <= SHORT * (upper[at] - lower[at]))
-    })
+    let part = SETTLED.max(OF_A_ROW / jacobian.nrows() as f64);
+    let Some(step) = step else { return false };
+    let mut moved = step.iter().zip(&free);
+    if 0.5 * step.dot(&right) <= part * cost
+        || moved.all(|(own, &at)| own.abs() <= SHORT * (upper[at] - lower[at]))
+    {
+        return true;
+    }
+    // At a kink slopes tell of a side that the step does not reach.
+    let is_lower = |halvings: i32| {
+        let mut beside = unknowns.to_vec();
+        for (own, &at) in step.iter().zip(&free) {
+            beside[at] = (beside[at] - own * 0.5_f64.powi(halvings)).clamp(lower[at], upper[at]);
+        }
+        sum(&problem.residual(&beside), robust_scale) < (1.0 - part) * cost
+    };
+    !(0..HALVINGS).any(is_lower)
 }
 
 /// The best that was met so far.

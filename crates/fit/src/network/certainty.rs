@@ -84,7 +84,7 @@ pub(super) fn certainty(
     let numbers = numbers.map(|(at, (value, number))| {
         let is_known = undetermined.row(at).iter().all(|own| own.abs() < TAKES_PART);
         let own = covariance[(at, at)].max(0.0).sqrt();
-        let is_known = is_known && own.is_finite();
+        let is_known = is_known && own.is_finite() && best.is_converged;
         let near = |bound: f64| (value / bound).ln().abs() < ON_BOUND;
         let is_on_bound = near(number.low) || near(number.high);
         let column: Vec<f64> = covariance.column(at).iter().copied().collect();
@@ -96,9 +96,11 @@ pub(super) fn certainty(
             Profile::WhereNeeded => !is_curved(),
             Profile::Always => false,
         };
-        let (ends, source) = if is_known && !is_on_bound && is_enough() {
+        // On a bound it is where it was held, not where the tests put it.
+        let is_known = is_known && !is_on_bound;
+        let (ends, source) = if is_known && is_enough() {
             ([Some(value / factor), Some(value * factor)], Source::Covariance)
-        } else if profile != Profile::Never && (is_known || is_on_bound) {
+        } else if profile != Profile::Never && is_known {
             (valley.ends(at, own), Source::Profile)
         } else {
             ([None; 2], Source::Covariance)

@@ -2,9 +2,11 @@
 //!
 //! Samples tell between which two of them the jump was and no more, so what is left of them is a step function of the
 //! clock. Here it is decided which sample is the first behind the jump. From there the clock is a number that was
-//! measured besides, as good as even over the step between the two: with the mean and the standard deviation of that it
-//! takes part in the fit, in which no sample changes sides. Averaged over where in its step a blow falls, the estimate
-//! that is linear in these two has the covariance that is told, whatever the rest of the curve says of the clock.
+//! measured besides: the middle of the step between the two, with half of that for a standard deviation. With it the clock
+//! takes part in the fit, in which no sample changes sides. An error of at most one standard deviation adds no more to
+//! that of the estimate than its variance allows, so intervals hold the truth with at least what they state wherever in its
+//! step a blow falls. The deviation of what is even over the step, step/√12, holds that on the average alone: at its ends
+//! it comes down to 82 in place of 95 of 100, where the rest of the curve tells as much of the clock.
 
 use super::{
     Curve, Kind,
@@ -22,6 +24,8 @@ const FEWEST: f64 = 2.0;
 const HALVINGS: usize = 30;
 /// So many samples to either side are looked at.
 const LOOKED: usize = 4;
+/// So many samples further than those beside a later jump take no part.
+const BESIDE: usize = 1;
 
 /// Where the jump of a curve lies among the samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +53,7 @@ impl Jump {
     fn before(first: usize, times: &[f64]) -> Option<Self> {
         let ends = [*times.get(first.checked_sub(1)?)?, *times.get(first)?];
         let mean = 0.5 * (ends[0] + ends[1]);
-        let deviation = (ends[1] - ends[0]) / 12.0_f64.sqrt();
+        let deviation = 0.5 * (ends[1] - ends[0]);
         (deviation > 0.0).then_some(Self { first, ends, mean, deviation })
     }
 
@@ -109,45 +113,52 @@ impl Task<'_> {
 
     /// Finds the jumps of all tests at a minimum, and puts their clocks between the samples. Whether there are any.
     pub(super) fn place_jumps(&mut self, unknowns: &mut [f64], scale: Option<f64>) -> bool {
+        let mut has_jumps = false;
         for test in 0..self.tests().len() {
             let jump = self.jump(test, unknowns, scale);
             self.set_jump(test, jump);
+            self.set_skipped(test, self.beside_jumps(test, unknowns));
+            has_jumps |= !self.record(test).skipped.is_empty();
             if let (Some(jump), Some(at)) = (jump, self.places(test).shift) {
                 let length = self.record(test).length;
                 unknowns[at] = (unknowns[at] * length).clamp(jump.ends[0], jump.ends[1]) / length;
             }
         }
-        self.jumps().next().is_some()
+        has_jumps || self.jumps().next().is_some()
     }
 
     /// The largest jump of a curve behind its start, as where it is touched again: when it is on the clock of the record
     /// \[s\], and its height. None of a test whose clock is right, or of one that is no blow.
     pub(super) fn later_jump(&self, test: usize, curve: &dyn Curve, own: Own) -> Option<Later> {
         self.places(test).shift.filter(|_| self.tests()[test].kind == Kind::Blow)?;
+        let all = self.later_jumps(test, curve, own).into_iter().map(|own| own.1);
+        all.max_by(|one, other| one.height.abs().total_cmp(&other.height.abs()))
+    }
+
+    /// All of them, each with the sample before it.
+    fn later_jumps(&self, test: usize, curve: &dyn Curve, own: Own) -> Vec<(usize, Later)> {
         let record = self.record(test);
         let least = (JUMPS * curve.peak().1.abs()).max(FEWEST * record.unit);
-        let rise = |ends: [f64; 2]| own.gain * (curve.value(ends[1]) - curve.value(ends[0]));
-        let late = record.recorder.times().iter().map(|time| time - own.shift);
-        let times: Vec<f64> = late.filter(|time| *time > record.step).collect();
-        let jump = |pair: &[f64]| {
-            let mut ends = [pair[0], pair[1]];
-            for _ in 0..HALVINGS {
-                if rise(ends).abs() < least {
-                    return None;
-                }
-                let middle = f64::midpoint(ends[0], ends[1]);
-                let halves = [[ends[0], middle], [middle, ends[1]]];
-                ends = if rise(halves[0]).abs() > rise(halves[1]).abs() {
-                    halves[0]
-                } else {
-                    halves[1]
-                };
-            }
-            let height = rise(ends);
-            (height.abs() >= least).then_some(Later { time: ends[1] + own.shift, height })
+        let value = |time: f64| own.gain * curve.value(time - own.shift);
+        let pairs = record.recorder.times().windows(2).enumerate();
+        let behind = pairs.filter(|(_, pair)| pair[0] - own.shift > record.step);
+        let jump = |(at, pair): (usize, &[f64])| {
+            Some((at, jump_between([pair[0], pair[1]], least, &value)?))
         };
-        let all = times.windows(2).filter_map(jump);
-        all.max_by(|one, other| one.height.abs().total_cmp(&other.height.abs()))
+        behind.filter_map(jump).collect()
+    }
+
+    /// Rows beside later jumps: which of them lie behind these depends on all numbers, by steps.
+    fn beside_jumps(&self, test: usize, unknowns: &[f64]) -> Vec<usize> {
+        let own = &self.tests()[test];
+        if own.kind != Kind::Blow || own.filter.is_some() {
+            return Vec::new();
+        }
+        let Ok(curve) = self.curve(test, unknowns) else { return Vec::new() };
+        let all = self.later_jumps(test, curve.as_ref(), self.own(test, unknowns));
+        let beside =
+            |at: usize| at.saturating_sub(BESIDE)..=(at + 1 + BESIDE).min(own.rows.len() - 1);
+        all.into_iter().flat_map(|own| beside(own.0)).collect()
     }
 
     /// The jump of a test by what its samples tell of it, each counted in their noise.
@@ -182,6 +193,38 @@ impl Task<'_> {
         let taken = || (0..near.len()).filter(is_taken);
         let ends = [near[taken().next()?].ends[0], near[taken().next_back()?].ends[1]];
         Some(Jump { first: best.first, ends, mean: centre, deviation: variance.sqrt() })
+    }
+}
+
+/// The jump of at least this height between two times, if there is one.
+fn jump_between(mut ends: [f64; 2], least: f64, value: &dyn Fn(f64) -> f64) -> Option<Later> {
+    let mut values = ends.map(value);
+    for _ in 0..HALVINGS {
+        if (values[1] - values[0]).abs() < least {
+            return None;
+        }
+        let time = f64::midpoint(ends[0], ends[1]);
+        let middle = value(time);
+        let is_first = (middle - values[0]).abs() > (values[1] - middle).abs();
+        let side = usize::from(is_first);
+        (ends[side], values[side]) = (time, middle);
+    }
+    let height = values[1] - values[0];
+    (height.abs() >= least).then_some(Later { time: ends[1], height })
+}
+
+/// Lets the samples of what jumps rise over the step of the recorder that leads to the jump, so that they depend
+/// continuously on its time.
+pub(super) fn ramped(values: &mut [f64], times: &[f64], value: &dyn Fn(f64) -> f64) {
+    let least = JUMPS * values.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
+    for at in 1..values.len() {
+        let ends = [times[at - 1], times[at]];
+        if (values[at] - values[at - 1]).abs() < least || least <= 0.0 {
+            continue;
+        }
+        if let Some(own) = jump_between(ends, least, value) {
+            values[at - 1] += own.height * (ends[1] - own.time) / (ends[1] - ends[0]);
+        }
     }
 }
 

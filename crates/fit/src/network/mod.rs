@@ -12,6 +12,7 @@ mod profile;
 mod record;
 mod repeats;
 mod residuals;
+mod search;
 mod starts;
 mod told;
 mod watch;
@@ -26,10 +27,15 @@ pub use self::{
     jump::Later,
     problem::{Curve, Kind, Known, Model, NetworkFault, NetworkSettings, Number, Profile, Test},
     repeats::Scatter,
+    search::Convergence,
     watch::{Phase, Search, Watch},
 };
-use self::{certainty::certainty, residuals::Task, starts::starts, watch::Watched};
-use crate::optimum::{Optimum, least_squares, sum};
+use self::{
+    residuals::Task,
+    search::{descended, search},
+    watch::Watched,
+};
+use crate::optimum::{least_squares, sum};
 
 /// What was found of a test.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,8 +114,8 @@ pub struct NetworkFit {
     pub numbers: Vec<Interval>,
     /// The tests.
     pub tests: Vec<TestFit>,
-    /// Whether the search ended at a minimum.
-    pub is_converged: bool,
+    /// Whether the search ended at the lowest minimum.
+    pub convergence: Convergence,
     /// Whether who watched it ended it: this is the best that was met so far.
     pub is_stopped: bool,
     /// How many starts led to it, and how many were solved.
@@ -129,32 +135,37 @@ pub struct NetworkFit {
 }
 
 impl NetworkFit {
+    /// Whether the search ended at the lowest minimum.
+    pub fn is_converged(&self) -> bool {
+        self.convergence == Convergence::Reached
+    }
+
+    /// Whether the tests determine a number, by its position: it is that of the lowest minimum, which lies between all
+    /// bounds, along what is determined, and noise tells that from any other by this number.
+    pub fn is_identified(&self, at: usize) -> bool {
+        let own = &self.numbers[at];
+        let [Some(low), Some(high)] = own.ends else { return false };
+        self.is_converged()
+            && own.is_identified()
+            && (self.undetermined.ncols() > 0 || !self.numbers.iter().any(|own| own.is_on_bound))
+            && self.others.iter().all(|other| (low..=high).contains(&other.values[at]))
+    }
+
     /// The factor between a product of powers of the numbers, by their exponents, and the ends of its 95 % interval;
-    /// `None` where the tests do not determine it.
+    /// `None` where the tests do not determine it, or the search has not converged.
     pub fn interval_of(&self, exponents: &[f64]) -> Option<f64> {
         let gradient = DVector::from_column_slice(exponents);
         let variance = gradient.dot(&(&self.determined * &gradient));
         let null = &self.undetermined;
-        let is_known = null.ncols() == 0 || null.tr_mul(&gradient).amax() < KNOWN * gradient.amax();
+        let is_known = self.is_converged();
+        let is_known = is_known
+            && (null.ncols() == 0 || null.tr_mul(&gradient).amax() < KNOWN * gradient.amax());
         is_known.then(|| (self.quantile * variance.max(0.0).sqrt()).exp())
     }
 }
 
 /// A product takes no part in what is not determined where its exponents have less than this part of it.
 const KNOWN: f64 = 1e-3;
-
-/// Starts whose sums differ by less than this part are at the same minimum.
-const SAME: f64 = 1e-4;
-/// Numbers that differ by more than this in their logarithms are others.
-const APART: f64 = 0.02;
-/// Residuals beyond so many standard deviations are far off.
-const FAR: f64 = 3.0;
-/// What is left of a test counts in no smaller parts of its peak than this.
-const LEAST: f64 = 1e-12;
-/// Rounds in which noise, and the samples between which curves jump, are found anew.
-const ROUNDS: usize = 3;
-/// The standard deviation in medians of the magnitude of normal deviates.
-const OF_MEDIAN: f64 = 1.4826;
 
 /// Fits numbers to tests.
 ///
@@ -211,7 +222,10 @@ pub fn fit_watched(
 ) -> Result<NetworkFit, NetworkFault> {
     checked(numbers, tests)?;
     let watched = Watched::new(watch);
-    let mut fit = search((numbers, tests), settings, model, &watched)?;
+    let mut task = Task::new(numbers, tests, model)
+        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?
+        .watched(&watched);
+    let mut fit = search((numbers, tests), settings, &mut task)?;
     for at in 0..tests.len() {
         if tests.len() > 1 && watched.begin(Phase::LeftOut { at, of: tests.len() }) {
             fit.tests[at].held_out = held_out((numbers, tests), at, &fit, model, &watched);
@@ -230,138 +244,6 @@ fn checked(numbers: &[Number], tests: &[Test]) -> Result<(), NetworkFault> {
     let own: usize = tests.iter().map(|own| own.unknowns() - own.priors()).sum();
     let unknowns = numbers.len() + own;
     if rows <= unknowns { Err(NetworkFault::TooFew { rows, unknowns }) } else { Ok(()) }
-}
-
-fn search(
-    (numbers, tests): (&[Number], &[Test]),
-    settings: NetworkSettings,
-    model: &Model<'_>,
-    watched: &Watched<'_>,
-) -> Result<NetworkFit, NetworkFault> {
-    let mut task = Task::new(numbers, tests, model)
-        .map_err(|(test, fault)| NetworkFault::Filter { test, fault })?
-        .watched(watched);
-    let (rows, unknowns) = (task.rows(), task.unknowns());
-    if rows <= unknowns {
-        return Err(NetworkFault::TooFew { rows, unknowns });
-    }
-    let mut found: Vec<Optimum> = Vec::new();
-    let mut reason = String::new();
-    let bounds = task.bounds();
-    let bounds = [&bounds[0][..], &bounds[1][..]];
-    let starts = starts(numbers, settings);
-    let of = starts.len();
-    for (at, values) in starts.into_iter().enumerate() {
-        if !watched.begin(Phase::Start { at, of }) {
-            break;
-        }
-        match task.begin(&values) {
-            Ok(start) => found.extend(least_squares(&task, bounds, &start, None)),
-            Err(own) => reason = own,
-        }
-    }
-    found.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-    let Some(first) = found.first().cloned() else {
-        return Err(NetworkFault::Unsolved { reason });
-    };
-    let scale = settings.is_robust.then_some(FAR);
-    watched.begin(Phase::Refinement);
-    let best = settled(&mut task, first, scale);
-    watched.begin(Phase::Certainty);
-    let certainty = certainty(&task, &best, scale, settings.profile);
-    let left = task.left(&best.unknowns);
-    let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
-    let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / rows as f64);
-    let is_low = |own: &Optimum| own.cost - found[0].cost <= noise + f64::MIN_POSITIVE;
-    let distance = |own: &Optimum| {
-        let [one, other] = [own, &found[0]].map(|own| &own.unknowns[..numbers.len()]);
-        // Parts of a model that are alike may have changed places.
-        if is_low(own) { apart(&sorted(one), &sorted(other)) } else { apart(one, other) }
-    };
-    // Along what is not determined there are others anyhow.
-    let is_apart = |own: &Optimum| certainty.undetermined.ncols() == 0 && distance(own) > APART;
-    let is_same =
-        |own: &&Optimum| if distance(own) > APART { !is_apart(own) && is_low(own) } else { true };
-    let reached = found.iter().filter(is_same).count();
-    let others = found.iter().filter(|own| is_low(own) && is_apart(own));
-    let others = others.map(|own| Other {
-        values: task.values(&own.unknowns),
-        cost: own.cost / found[0].cost.max(f64::MIN_POSITIVE),
-    });
-    let mut fit = NetworkFit {
-        tests: task.told(&best.unknowns),
-        is_converged: best.is_converged,
-        is_stopped: watched.is_stopped(),
-        reached: [reached, found.len()],
-        others: others.collect(),
-        outliers,
-        numbers: certainty.numbers,
-        correlation: certainty.correlation,
-        quantile: certainty.quantile,
-        determined: certainty.determined,
-        undetermined: certainty.undetermined,
-    };
-    for test in 0..tests.len() {
-        let bands = fit.bands(&|values| task.samples(test, values, &best.unknowns));
-        let half = |own: Option<Band>| own.and_then(|own| own.half);
-        fit.tests[test].band = bands.unwrap_or_default().into_iter().map(half).collect();
-    }
-    Ok(fit)
-}
-
-/// The largest difference of two sets of numbers.
-fn apart(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
-}
-
-fn sorted(all: &[f64]) -> Vec<f64> {
-    let mut all = all.to_vec();
-    all.sort_by(f64::total_cmp);
-    all
-}
-
-/// The minimum of the robust sum beyond a scale, with the rows of each test counted in their noise.
-fn settled(task: &mut Task<'_>, first: Optimum, scale: Option<f64>) -> Optimum {
-    let mut best = first;
-    for _ in 0..ROUNDS {
-        let units = units(task, &best.unknowns, scale.is_some());
-        task.count_in(&units);
-        let has_jumps = task.place_jumps(&mut best.unknowns, scale);
-        if task.is_ended() {
-            break;
-        }
-        let [low, high] = task.bounds();
-        best = least_squares(task, [&low, &high], &best.unknowns, scale).unwrap_or(best);
-        if !has_jumps {
-            break;
-        }
-    }
-    best
-}
-
-/// What the rows of each test are counted in: their noise where it is known, or repeats tell it, else the standard deviation that what is
-/// left of them at a minimum stands for.
-fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
-    let left = task.left(unknowns);
-    let taken = task.unknowns() as f64 / left.len() as f64;
-    let parts = task.parts().zip(task.tests()).enumerate();
-    let unit = |(test, (rows, own)): (usize, (std::ops::Range<usize>, &Test))| {
-        if let Some(noise) = own.noise {
-            return noise;
-        }
-        if let Some(scatter) = task.scatter(test, unknowns) {
-            return scatter.deviation;
-        }
-        let left = &left[rows];
-        let square = left.iter().map(|own| own * own).sum::<f64>() / left.len() as f64;
-        let plain = (square / (1.0 - taken).max(0.1)).sqrt();
-        let mut sorted: Vec<f64> = left.iter().map(|own| own.abs()).collect();
-        sorted.sort_by(f64::total_cmp);
-        let median = OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
-        let own = if is_robust && median > 0.0 { median } else { plain };
-        task.unit(test) * own.max(LEAST)
-    };
-    parts.map(unit).collect()
 }
 
 /// How far the model is from a test where the numbers are fitted to all others.
@@ -385,8 +267,8 @@ fn held_out(
     let rest: Vec<Test> = others.iter().map(|own| tests[*own].clone()).collect();
     let found = fit.numbers.iter().map(|own| own.value).collect::<Vec<_>>();
     let of_rest = |at: usize, values: &[f64]| model(others[at], values);
-    let task = Task::new(numbers, &rest, &of_rest).ok()?.watched(watched);
-    let unknowns = nearest(&task, &found)?;
+    let mut task = Task::new(numbers, &rest, &of_rest).ok()?.watched(watched);
+    let unknowns = nearest(&mut task, &found)?;
     if watched.is_stopped() {
         return None;
     }
@@ -395,18 +277,20 @@ fn held_out(
     let values: Vec<f64> = task.values(&unknowns).into_iter().chain(means).collect();
     let alone = [Test { gain: None, known: Vec::new(), ..tests[test].clone() }];
     let of_test = |_: usize, _: &[f64]| model(test, &values);
-    let task = Task::new(&[], &alone, &of_test).ok()?;
-    let told = task.told(&nearest(&task, &[])?).pop()?;
+    let mut task = Task::new(&[], &alone, &of_test).ok()?;
+    let unknowns = nearest(&mut task, &[])?;
+    let told = task.told(&unknowns).pop()?;
     Some(HeldOut { peak: told.model_peak / told.measured_peak - 1.0, rms: told.rms })
 }
 
 /// The unknowns at the minimum that is found from these values of the numbers.
-fn nearest(task: &Task<'_>, values: &[f64]) -> Option<Vec<f64>> {
+fn nearest(task: &mut Task<'_>, values: &[f64]) -> Option<Vec<f64>> {
     let start = task.begin(values).ok()?;
     if start.is_empty() {
         return Some(start);
     }
     let [low, high] = task.bounds();
+    let start = descended(task, &start)?.unknowns;
     Some(least_squares(task, [&low, &high], &start, None)?.unknowns)
 }
 

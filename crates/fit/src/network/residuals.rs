@@ -11,11 +11,17 @@ use std::{iter::repeat_n, ops::Range};
 use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
 
-use super::{Curve, Kind, Model, Number, Test, jump::Jump, record::Record, watch::Watched};
+use super::{
+    Curve, Kind, Model, Number, Test,
+    jump::{Jump, ramped},
+    record::Record,
+    watch::{Phase, Watched},
+};
 use crate::optimum::Residuals;
 
-/// Step of differences in logarithms of numbers, and in standard deviations.
-const STEP: f64 = 1e-3;
+/// Step of differences in logarithms of numbers, and in standard deviations: short, as a row at which a curve has a kink
+/// is passed by within it.
+const STEP: f64 = 2e-4;
 /// Step of differences in time, in parts of the length of a test.
 const TIME_STEP: f64 = 1e-5;
 /// Part of a step of the recorder over which a curve goes on straight before its start.
@@ -25,6 +31,8 @@ const NEXT: f64 = 0.125;
 const LATEST: f64 = 2.0;
 const STEPS: f64 = 2.0;
 const HIGHEST: f64 = 1.0;
+/// A clock that is put into the step in which its curve jumps may leave that by so many steps, as any estimate.
+const BEYOND: f64 = 3.0;
 /// What is known of a gain or a number is not left by more standard deviations.
 const FARTHEST: f64 = 8.0;
 
@@ -83,6 +91,11 @@ impl<'t> Task<'t> {
         self.watched.is_some_and(Watched::is_stopped)
     }
 
+    /// Something else begins; returns whether it still may.
+    pub(super) fn begin_phase(&self, phase: Phase) -> bool {
+        self.watched.is_none_or(|own| own.begin(phase))
+    }
+
     /// Rows of all tests, and of what is known of their own unknowns.
     pub(super) fn rows(&self) -> usize {
         self.measured() + self.tests.iter().map(Test::priors).sum::<usize>() + self.jumps().count()
@@ -123,6 +136,18 @@ impl<'t> Task<'t> {
     /// Says where the curve of a test jumps among its samples.
     pub(super) fn set_jump(&mut self, test: usize, jump: Option<Jump>) {
         self.records[test].jump = jump;
+    }
+
+    /// Says which rows of a test stand beside other jumps of its curve.
+    pub(super) fn set_skipped(&mut self, test: usize, skipped: Vec<usize>) {
+        self.records[test].skipped = skipped;
+    }
+
+    /// Takes averages over one of so many parts of a pulse for the rows, or the samples. Whether those of any test are
+    /// averages.
+    pub(super) fn average(&mut self, parts: Option<usize>) -> bool {
+        let each = self.records.iter_mut().zip(self.tests);
+        each.map(|(own, test)| own.average(test, parts)).fold(false, |one, other| one | other)
     }
 
     /// The tests whose curves jump, each with the place of its shift.
@@ -209,7 +234,10 @@ impl<'t> Task<'t> {
         };
         let mut both = [with(-1.0, |own| own.low), with(1.0, |own| own.high)];
         for (test, at, jump) in self.jumps() {
-            let ends = jump.ends.map(|end| end / self.records[test].length);
+            let [first, last] = jump.ends;
+            // The samples have chosen sides, so that nothing happens to the sum at these ends.
+            let ends = [first - BEYOND * (last - first), last + BEYOND * (last - first)];
+            let ends = ends.map(|end| end / self.records[test].length);
             both.iter_mut().zip(ends).for_each(|(side, end)| side[at] = end);
         }
         both
@@ -273,7 +301,10 @@ impl<'t> Task<'t> {
                     curve.value(time)
                 }
             };
-            return recorder.record(|time| value(time - shift));
+            let mut values: Vec<f64> =
+                recorder.times().iter().map(|time| value(time - shift)).collect();
+            ramped(&mut values, recorder.times(), &|time| value(time - shift));
+            return recorder.passed(values);
         };
         let slope = (curve.value(NEXT * step) - start) / (NEXT * step);
         let value = |(at, time): (usize, &f64)| match time - shift {

@@ -2,14 +2,12 @@
 
 use dashpot_numerics::Stream;
 
-use super::{NetworkSettings, Number};
+use super::Number;
 
-/// The scene's own values, and others, each of which has a part of every range that no other has (a Latin hypercube
-/// of logarithms).
-pub(super) fn starts(numbers: &[Number], settings: NetworkSettings) -> Vec<Vec<f64>> {
-    let mut all = vec![numbers.iter().map(|own| own.start.clamp(own.low, own.high)).collect()];
-    let count = settings.starts.saturating_sub(1);
-    let mut stream = Stream::new(settings.seed);
+/// Values between the bounds, each of which has a part of every range that no other has (a Latin hypercube of
+/// logarithms).
+pub(super) fn spread(numbers: &[Number], count: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut stream = Stream::new(seed);
     let columns: Vec<Vec<f64>> = numbers
         .iter()
         .map(|own| {
@@ -22,6 +20,5 @@ pub(super) fn starts(numbers: &[Number], settings: NetworkSettings) -> Vec<Vec<f
             parts.into_iter().map(value).collect()
         })
         .collect();
-    all.extend((0..count).map(|at| columns.iter().map(|own| own[at]).collect()));
-    all
+    (0..count).map(|at| columns.iter().map(|own| own[at]).collect()).collect()
 }

@@ -6,7 +6,7 @@ use super::{
 };
 
 /// Fewer rows before the impact tell no noise.
-const FEWEST: usize = 8;
+pub(super) const FEWEST: usize = 8;
 /// What the filter smears of an impact to before it lies within so many periods of its design frequency.
 const SMEARED: f64 = 2.0;
 
@@ -64,6 +64,16 @@ impl Task<'_> {
         Some(samples.map(|value| Some(own.gain * value)).collect())
     }
 
+    /// How many rows of a test are of samples before the impact.
+    pub(super) fn rows_at_rest(&self, test: usize, unknowns: &[f64]) -> usize {
+        let own = &self.tests()[test];
+        if own.kind != Kind::Blow {
+            return 0;
+        }
+        let smeared = own.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency());
+        self.rows_before(test, self.own(test, unknowns).shift - smeared)
+    }
+
     /// What there is to say about each test.
     pub(super) fn told(&self, unknowns: &[f64]) -> Vec<TestFit> {
         let left = self.left(unknowns);
@@ -77,10 +87,7 @@ impl Task<'_> {
             let (left, unit) = (&left[rows], self.unit(at));
             let mean_square =
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
-            let smeared = test.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency());
-            let rests =
-                if test.kind == Kind::Blow { own.shift - smeared } else { f64::NEG_INFINITY };
-            let resting = &left[..self.rows_before(at, rests)];
+            let resting = &left[..self.rows_at_rest(at, unknowns)];
             let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
             Some(TestFit {
                 shift: own.shift,

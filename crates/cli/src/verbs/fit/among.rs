@@ -87,8 +87,13 @@ pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError
     let mut fits: Vec<Option<NetworkFit>> = Vec::new();
     for (form, place) in forms.iter().zip(&places) {
         let fit = plan.fit(Some(place), Profile::Never);
-        if let Err(fault) = &fit {
-            note(&format!("`{}` is not fitted: {fault}", form.word()));
+        match &fit {
+            Err(fault) => note(&format!("`{}` is not fitted: {fault}", form.word())),
+            Ok(own) if !own.is_converged() => {
+                let word = form.word();
+                note(&format!("`{word}` is compared though its search has not converged"));
+            }
+            Ok(_) => {}
         }
         fits.push(fit.ok());
     }
@@ -97,7 +102,9 @@ pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError
     let choice = choose(&candidates, plan.arguments.error());
     let (information, samples) = information(&list(fits.iter().map(Option::as_ref)), &plan.tests);
     let open = |own: &Option<NetworkFit>| {
-        own.iter().flat_map(|own| &own.numbers).filter(|own| !own.is_identified()).count()
+        own.iter()
+            .flat_map(|own| (0..own.numbers.len()).filter(|at| !own.is_identified(*at)))
+            .count()
     };
     let among = Among {
         model: named.name.clone(),

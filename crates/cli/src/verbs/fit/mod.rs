@@ -124,7 +124,8 @@ pub(crate) struct FitArguments {
     /// spring, and nothing flows.
     #[arg(long)]
     solid: bool,
-    /// From how many starts numbers of a scene are searched: its own, and others over the bounds [default: 5].
+    /// From how many starts numbers of a scene are searched at most: its own, and others over the bounds, until enough
+    /// of them end at the same minimum [default: 10].
     #[arg(long, value_name = "NUMBER", value_parser = STARTS.read())]
     starts: Option<usize>,
     /// The seed of these starts [default: 1].
@@ -196,7 +197,7 @@ impl FitArguments {
     }
 
     fn starts(&self) -> usize {
-        self.starts.unwrap_or(5)
+        self.starts.unwrap_or(10)
     }
 
     fn seed(&self) -> u64 {

@@ -11,8 +11,8 @@ const ROUNDING: f64 = 1e-9;
 impl FittedScene {
     /// The section that states it, or why there is none.
     pub(super) fn scatter(&self) -> Result<String, &'static str> {
-        if self.fit.is_stopped {
-            return Err("the fit is not finished");
+        if !self.fit.is_converged() {
+            return Err("the search has not converged");
         }
         let paths = self.numbers.iter().map(|own| own.at.map(|at| &self.tunables.all()[at].path));
         let Some(paths) = paths.collect::<Option<Vec<_>>>() else {

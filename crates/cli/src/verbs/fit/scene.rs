@@ -246,7 +246,7 @@ impl<'p> Plan<'p> {
             replaced: replaced.as_ref(),
             set: self.arguments.values.set.clone(),
         };
-        let measures = if fit.is_stopped { Vec::new() } else { measures(&whole, &fit) };
+        let measures = if fit.is_converged() { measures(&whole, &fit) } else { Vec::new() };
         let found: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
         let fitted = whole.posed(&found).ok();
         let asked = self.arguments.in_words();

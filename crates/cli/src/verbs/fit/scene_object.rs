@@ -1,6 +1,6 @@
 //! A fit of numbers of a scene as an object of JSON.
 
-use dashpot_fit::network::{Kind, Source};
+use dashpot_fit::network::{Convergence, Kind, Source};
 use serde::Serialize;
 
 use super::{among::Among, scene::FittedScene};
@@ -33,7 +33,12 @@ pub(super) fn object_of(own: &FittedScene) -> impl Serialize + '_ {
         determined: list(shown),
         measures: measures.collect::<Pairs<_, _>>(),
         tests: list((0..own.tests.len()).map(|at| test(own, at))),
-        converged: own.fit.is_converged,
+        converged: own.fit.is_converged(),
+        convergence: match own.fit.convergence {
+            Convergence::Reached => "reached",
+            Convergence::Alone => "one-start-alone",
+            Convergence::Unsettled => "no-minimum",
+        },
         stopped: own.fit.is_stopped,
         floor: None::<f64>,
         among: own.among.as_ref().map(Among::object),

@@ -1,7 +1,7 @@
 //! What a fit of numbers of a scene says.
 
 use dashpot_analysis::Missing;
-use dashpot_fit::network::{Interval, Kind, Source, Test, TestFit};
+use dashpot_fit::network::{Convergence, Interval, Kind, NetworkFit, Source, Test, TestFit};
 use dashpot_plot::Table;
 use serde::Serialize;
 
@@ -30,7 +30,7 @@ const BEYOND: f64 = 0.01;
 const NOISIER: f64 = 1.5;
 /// What is said of a search that an interrupt ended.
 const STOPPED: &str = "not finished: the search was interrupted. These numbers are the best that it had met, and no \
-                       minimum; intervals are those of the covariance there, and nothing was left out";
+                       minimum; there are no intervals, and nothing was left out";
 /// More others are not listed.
 const MOST_OTHERS: usize = 3;
 
@@ -51,8 +51,9 @@ impl FittedScene {
         let own = &self.fit.numbers[at];
         match own {
             Interval { is_on_bound: true, .. } => "on its bound",
+            _ if !self.fit.is_converged() => "not converged",
             _ if self.is_open() => "not identified",
-            _ if own.is_identified() && !self.is_entangled(at) => "identified",
+            _ if self.fit.is_identified(at) && !self.is_entangled(at) => "identified",
             _ => "not identified",
         }
     }
@@ -166,8 +167,8 @@ impl FittedScene {
         all.extend(self.among.iter().filter_map(Among::said_first));
         if fit.is_stopped {
             all.push(STOPPED.to_owned());
-        } else if !fit.is_converged {
-            all.push("the search has not converged: these numbers are not a minimum".to_owned());
+        } else {
+            all.extend(unconverged(fit));
         }
         if let Some(why) = self.scatter().err().filter(|_| self.has_scatter) {
             all.push(format!("no scatter is written: {why}"));
@@ -178,7 +179,7 @@ impl FittedScene {
             let bounds = own.bounds.map(|bound| value(own, bound));
             let found = value(own, fit.numbers[at].value);
             all.push(format!(
-                "`{}` is on a bound of {} to {}, at {found}: the covariance of the others holds only with it there",
+                "`{}` is on a bound of {} to {}, at {found}: it has no interval, those of the others hold only with it there, and none is identified",
                 own.name, bounds[0], bounds[1]
             ));
         }
@@ -243,7 +244,12 @@ impl FittedScene {
         let fit = &self.fit;
         let [reached, solved] = fit.reached;
         let mut all = vec![format!(
-            "{reached} of {solved} starts lead to this minimum; intervals are those of 95 % from the covariance there{}",
+            "{reached} of {solved} starts lead to this minimum{}{}",
+            if fit.is_converged() {
+                "; intervals are those of 95 % from the covariance there"
+            } else {
+                ""
+            },
             if fit.correlation > 1.5 {
                 format!(
                     ", with {} rows for one that is independent, as the residuals follow each other",
@@ -284,8 +290,8 @@ impl FittedScene {
         all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
             let later = own.later_jump?;
             Some(format!(
-                "{}: `{}` jumps again, by {} at {} of the record, where it is touched once more: which sample is the first \
-                 behind that is not looked for, and a row there may be far off",
+                "{}: `{}` jumps again, by {} at {} of the record, where it is touched once more; which sample is the \
+                 first behind that is not looked for: the rows beside it are left out",
                 asked.file,
                 curve.output.key(),
                 curve.output.told(later.height, FEW),
@@ -347,7 +353,11 @@ impl FittedScene {
                 curve.output.told(own.rms, FEW)
             )
         });
-        let unfinished = if self.fit.is_stopped { "not finished: " } else { "" };
+        let unfinished = match self.fit.convergence {
+            _ if self.fit.is_stopped => "not finished: ",
+            Convergence::Reached => "",
+            Convergence::Alone | Convergence::Unsettled => "not converged: ",
+        };
         let head = format!("{unfinished}fitted to {}", tests.collect::<Vec<_>>().join(", "));
         [head].into_iter().chain(self.verdict_lines()).collect()
     }
@@ -380,6 +390,21 @@ fn other_zero(own: &TestFit, file: &str, of: &dyn Fn(f64) -> String) -> Option<S
         of(other.median),
         of(own.offset)
     ))
+}
+
+/// What there is to say of a search that did not converge.
+fn unconverged(fit: &NetworkFit) -> Option<String> {
+    match fit.convergence {
+        Convergence::Reached => None,
+        Convergence::Unsettled => Some(
+            "the search has not converged: these numbers are not at a minimum, and have no intervals".to_owned(),
+        ),
+        Convergence::Alone => Some(format!(
+            "the search has not converged: of {} starts one alone leads to this minimum, and there may be a lower one, so \
+             there are no intervals: search from more starts (`--starts`), or within narrower bounds",
+            fit.reached[1]
+        )),
+    }
 }
 
 fn misses(file: &str, key: &str, own: &TestFit, test: &Test) -> Option<String> {

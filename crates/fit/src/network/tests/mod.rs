@@ -81,7 +81,7 @@ fn every_start_within_a_decade_and_a_half_leads_to_the_minimum() {
         let settings = NetworkSettings { starts: 1, ..SETTINGS };
         let own = fit(&numbers, std::slice::from_ref(&test), settings, &|_, own| Ok(pulse(own)));
         let own = own.unwrap();
-        assert!(own.is_converged, "{numbers:?}");
+        assert!(own.is_converged(), "{numbers:?}");
         for (found, truth) in own.numbers.iter().zip(TRUE) {
             assert!((found.value / truth - 1.0).abs() < 0.03, "{numbers:?}: {found:?}");
         }
@@ -215,4 +215,37 @@ fn what_cannot_be_fitted_is_told() {
     assert_eq!(fault(&[nothing], &model), NetworkFault::Nothing { test: 0 });
     let own = fault(&[test(1, 1.0)], &|_, _| Err("loose".to_owned()));
     assert!(own.to_string().contains("loose"), "{own}");
+}
+
+/// An oscillation, of which the sum of squares has a minimum for every few periods of the record.
+struct Wave(f64);
+
+impl Curve for Wave {
+    fn value(&self, time: f64) -> f64 {
+        (self.0 * time).sin()
+    }
+
+    fn peak(&self) -> (f64, f64) {
+        (std::f64::consts::FRAC_PI_2 / self.0, 1.0)
+    }
+}
+
+#[test]
+fn a_minimum_at_which_one_start_of_several_ended_is_none_and_more_starts_find_it() {
+    let mut stream = Stream::new(4);
+    let rows = (0..200).map(|at| 0.05 * f64::from(at));
+    let rows = rows.map(|time| (time, Wave(7.0).value(time) + 0.05 * normal(&mut stream)));
+    let test = [Test { rows: rows.collect(), ..Test::default() }];
+    let number = [Number { low: 1.0, high: 60.0, start: 20.0 }];
+    let at = |starts: usize| {
+        let settings = NetworkSettings { starts, ..SETTINGS };
+        fit(&number, &test, settings, &|_, own| Ok(Box::new(Wave(own[0])))).unwrap()
+    };
+    let few = at(2);
+    assert_eq!(few.convergence, Convergence::Alone);
+    assert!(few.numbers[0].ends == [None; 2] && !few.is_identified(0), "{:?}", few.numbers);
+    let many = at(60);
+    assert!(many.is_converged() && many.is_identified(0), "{:?}", many.reached);
+    assert!((many.numbers[0].value / 7.0 - 1.0).abs() < 0.01, "{:?}", many.numbers);
+    assert!(many.reached[1] < 60, "{:?}", many.reached);
 }

@@ -1,0 +1,95 @@
+//! The fit of a scene finds the lowest minimum, its intervals hold the truth, and where it did not converge it claims
+//! nothing. The whole campaign is `fit_reference.py`.
+
+use std::fmt::Write as _;
+
+use dashpot::numerics::Stream;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::cli::{code, file, json, out, run, text};
+
+/// Mass \[kg\], speed \[m/s\], spring \[N/m\], dashpot \[N s/m\] and rate of the recorder \[Hz\].
+const MASS: f64 = 4.0;
+const SPEED: f64 = 2.0;
+const TRUTH: [f64; 2] = [30e3, 100.0];
+const RATE: f64 = 20e3;
+
+const SCENE: &str = "[values]\nK = \"60 kN/m\"\nC = \"150 N s/m\"\n[nodes]\nhead = { mass = \"4 kg\", velocity = \"2 m/s\" }\n\
+     [elements]\npad = { between = [\"head\", \"ground\"], kelvin-voigt = { spring = \"K\", dashpot = \"C\" } }\n\
+     [effects]\nseparation.pad = {}\n[run]\nduration = \"60 ms\"\n";
+
+fn normal(stream: &mut Stream) -> f64 {
+    let (one, other) = (1.0 - stream.share(), stream.share());
+    (-2.0 * one.ln()).sqrt() * (std::f64::consts::TAU * other).cos()
+}
+
+/// The deceleration of a mass that meets the pad about so much later, until the pad would pull, in closed form:
+/// `m ẍ + c ẋ + k x = 0`; with white noise of 1 m/s².
+fn record(stream: &mut Stream, before: f64) -> String {
+    let [spring, dashpot] = TRUTH;
+    let rate = 0.5 * dashpot / MASS;
+    let omega = (spring / MASS - rate * rate).sqrt();
+    let release = (std::f64::consts::PI - 2.0 * (rate / omega).atan()) / omega;
+    let late = before + stream.share() / RATE;
+    let mut rows = "t [s],acc [m/s^2]\n".to_owned();
+    let count = ((2.0 * before + release + 4e-3) * RATE) as usize;
+    for at in 0..count {
+        let time = at as f64 / RATE;
+        let (sine, cosine) = (omega * (time - late)).sin_cos();
+        let decayed = SPEED * (-rate * (time - late)).exp();
+        let (way, speed) = (decayed * sine / omega, decayed * (cosine - rate / omega * sine));
+        let is_touched = (0.0..=release).contains(&(time - late));
+        let push = if is_touched { (spring * way + dashpot * speed) / MASS } else { 0.0 };
+        writeln!(rows, "{time:.6},{:.5}", push + normal(stream)).unwrap();
+    }
+    rows
+}
+
+fn fitted(rows: &str) -> Value {
+    let folder = TempDir::new().unwrap();
+    let (scene, record) = (file(&folder, "pad.toml", SCENE), file(&folder, "drop.csv", rows));
+    let to = format!("{}:acc=head.acceleration", text(&record));
+    let varied = ["--vary", "K=5..500 kN/m", "--vary", "C=10..5000 N s/m", "--json"];
+    json(&[&["fit", text(&scene), "--to", &to][..], &varied].concat())
+}
+
+#[test]
+fn a_pad_whose_force_jumps_is_found_from_twice_its_stiffness_however_long_the_record_rests() {
+    let (mut stream, mut held) = (Stream::new(11), [0; 2]);
+    let befores = [4e-3, 1e-3, 20e-3].into_iter().cycle();
+    for before in befores.take(45) {
+        let answer = fitted(&record(&mut stream, before));
+        assert_eq!(answer["converged"], true, "{before}");
+        let rms = answer["tests"][0]["rms"].as_f64().unwrap();
+        assert!(rms < 1.2, "{before}: {rms}");
+        for (at, name) in ["K", "C"].into_iter().enumerate() {
+            let own = &answer["parameters"][name];
+            assert_eq!(own["identified"], true, "{own}");
+            let [low, high] = ["low", "high"].map(|end| own[end].as_f64().unwrap());
+            held[at] += i32::from((low..=high).contains(&TRUTH[at]));
+            assert!((own["value"].as_f64().unwrap() / TRUTH[at] - 1.0).abs() < 0.05, "{own}");
+        }
+    }
+    // 95 % of 45 is 42.75 with a standard deviation of 1.5.
+    assert!(held.iter().all(|own| *own >= 39), "{held:?} of 45 hold the truth");
+}
+
+#[test]
+fn what_did_not_converge_or_ended_on_a_bound_has_no_interval_and_is_not_identified() {
+    let rows = record(&mut Stream::new(3), 4e-3);
+    let folder = TempDir::new().unwrap();
+    let (scene, record) = (file(&folder, "pad.toml", SCENE), file(&folder, "drop.csv", &rows));
+    let to = format!("{}:acc=head.acceleration", text(&record));
+    let asked =
+        ["fit", text(&scene), "--to", &to, "--vary", "K=5..20 kN/m", "--vary", "C=10..5000 N s/m"];
+    let bound = json(&[&asked[..], &["--json"]].concat());
+    let parameters = &bound["parameters"];
+    assert_eq!(parameters["K"]["on_bound"], true);
+    assert!(parameters["K"]["low"].is_null() && parameters["K"]["high"].is_null(), "{parameters}");
+    assert_eq!([&parameters["K"]["identified"], &parameters["C"]["identified"]], [false, false]);
+    let told = run(&asked);
+    assert_eq!(code(&told), 0);
+    let words = out(&told).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("it has no interval"), "{words}");
+}
