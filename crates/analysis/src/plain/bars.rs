@@ -26,6 +26,8 @@ pub(crate) struct Found<const N: usize> {
     /// How far off each value may be.
     pub(crate) errors: Vec<f64>,
     pub(crate) course: Course<N>,
+    /// The largest relative difference from the solution before, in parts of what that one [doubts](Course::doubt).
+    pub(crate) ratio: f64,
     /// How many solutions there were besides.
     pub(crate) others: usize,
     /// Work of those.
@@ -38,7 +40,7 @@ pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
 }
 
 /// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value
-/// differs from that before by its error. `None` where a solution is not of the plain kind, or none suffices.
+/// differs from that before by its error, but for what its own steps lack. `None` where a solution is not of the plain kind, or none suffices.
 pub(crate) fn with_bars<const N: usize>(
     stepped: &Stepped<'_, N>,
     tolerances: &[f64],
@@ -47,7 +49,7 @@ pub(crate) fn with_bars<const N: usize>(
 ) -> Option<Found<N>> {
     let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
     let first = stepped.follow(tolerances.next()?)?;
-    let (mut before, mut work) = (read(&first), first.track.work);
+    let (mut before, mut doubt, mut work) = (read(&first), first.doubt(), first.track.work);
     for (others, rtol) in (1..).zip(tolerances) {
         let wall = begin.elapsed();
         let course = stepped.follow(rtol)?;
@@ -55,14 +57,15 @@ pub(crate) fn with_bars<const N: usize>(
         let differences = || values.iter().zip(&before).map(|(one, other)| (one - other).abs());
         let relative = differences().zip(&values).map(|(off, value)| off / value.abs());
         let most = relative.fold(0.0, f64::max);
-        let bar = |(off, value): (f64, &f64)| off + (DOUBT * most + ROUNDING) * value.abs();
+        let (ratio, own) = (most / doubt, course.doubt());
+        let bar = |(off, value): (f64, &f64)| off + (DOUBT * most + own + ROUNDING) * value.abs();
         let errors: Vec<f64> = differences().zip(&values).map(bar).collect();
         if suffice(&values, &errors) {
             work.wall = wall;
-            return Some(Found { values, errors, course, others, work });
+            return Some(Found { values, errors, course, ratio, others, work });
         }
         added(&mut work, &course.track.work);
-        before = values;
+        (before, doubt) = (values, own);
     }
     None
 }

@@ -46,6 +46,15 @@ impl Shown {
             _ => value.abs(),
         }
     }
+
+    /// By how many parts of itself it changes at most where the force does by one.
+    pub(crate) fn order(self, exponent: f64) -> f64 {
+        match self {
+            Self::Severity => exponent,
+            Self::Hic(_) => 2.5,
+            _ => 1.0,
+        }
+    }
 }
 
 /// The figure that is a measure; `None` where it has to be read off the full solution.

@@ -24,6 +24,8 @@ const MOST: usize = 2000;
 const OVERSHOOT: f64 = 0.02;
 /// Part of the largest force below which one that does not fall on for good may have ended the impact.
 const SLIGHT: f64 = 1e-2;
+/// What the sum of what steps lack is taken for, in parts of it.
+const LACKING: f64 = 3.0;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
 /// A polynomial goes no further beyond what it is at the nodes than this part of the room between these values.
@@ -46,6 +48,29 @@ impl<const N: usize> Nodes<N> {
             *own = instance.completed(&step.at(place(at)));
         }
         Self { start, end, values }
+    }
+
+    /// By how much the unknowns at the nodes differ at most from what their slopes at all nodes add up to, each in the
+    /// unit that is given of its number and magnitude: the error of the step, by other slopes than those it was
+    /// made of.
+    fn lack(&self, instance: &Instance<N>, unit: impl Fn(usize, f64) -> f64) -> f64 {
+        let mut sums = [[0.0; N]; DEGREE + 1];
+        let half = 0.5 * (self.end - self.start);
+        let nodes = Interpolation::of_degree(DEGREE);
+        for (z, weights) in self.values.iter().zip(nodes.integrals()) {
+            let slopes = apply(&instance.matrix, z);
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                sum.iter_mut().zip(&slopes).for_each(|(sum, slope)| *sum += weight * slope);
+            }
+        }
+        let [first, .., last] = &self.values;
+        let relative = |at: usize| {
+            let unit = unit(at, first[at].abs().max(last[at].abs()));
+            let off = |(sum, z): (&[f64; N], &[f64; N])| (first[at] + half * sum[at] - z[at]).abs();
+            let most = sums.iter().zip(&self.values).map(off).fold(0.0, f64::max);
+            if unit > 0.0 { most / unit } else { 0.0 }
+        };
+        (0..N).map(relative).fold(0.0, f64::max)
     }
 
     /// When it ends.
@@ -85,11 +110,15 @@ impl<const N: usize> Nodes<N> {
 pub(crate) struct Track<const N: usize> {
     pub(crate) steps: Vec<Nodes<N>>,
     pub(crate) work: Statistics,
+    /// What all steps [lack](Nodes::lack) together.
+    lack: f64,
+    /// The largest last coefficient of the force in a step \[N\].
+    bend: f64,
 }
 
 impl<const N: usize> Track<N> {
     fn new() -> Self {
-        Self { steps: Vec::new(), work: Statistics::default() }
+        Self { steps: Vec::new(), work: Statistics::default(), lack: 0.0, bend: 0.0 }
     }
 
     /// What is looked at, over time.
@@ -132,6 +161,21 @@ pub(crate) struct Course<const N: usize> {
 }
 
 impl<const N: usize> Course<N> {
+    /// By what part of themselves a force, a deformation, a speed or a time that is read off it may be off, by what
+    /// its steps lack.
+    pub(crate) fn doubt(&self) -> f64 {
+        let Self { track, strongest, .. } = self;
+        LACKING * track.lack * self.steepness().max(1.0) + track.bend / strongest.value
+    }
+
+    /// By what part of itself the largest force changes for each part by which the speed at the start does. Where energy
+    /// is kept this is `v₀² |F̈| / (F ÿ²)` at the peak: 1 for a linear spring, less on a plateau, more where it stiffens.
+    fn steepness(&self) -> f64 {
+        let Self { force, speed, strongest: peak, .. } = self;
+        let bend = force.panels[force.panel_at(peak.time)].derivative().slope(peak.time);
+        (speed.value(0.0) / speed.slope(peak.time)).powi(2) * bend.abs() / peak.value
+    }
+
     /// Whether the force comes so near to zero, and goes on, that the impact may have ended there.
     fn lingers(&self) -> bool {
         let slight = SLIGHT * self.strongest.value;
@@ -189,6 +233,7 @@ impl<const N: usize> Stepped<'_, N> {
             let mut error = step.error(self.unit(rtol, &most));
             let mut seen = Seen::default();
             let mut nodes = None;
+            let (mut lack, mut bend) = (0.0, 0.0_f64);
             if error <= 1.0 {
                 step.fit(&mut slopes);
                 track.work.rhs_calls += 1 + FURTHER.len();
@@ -197,6 +242,9 @@ impl<const N: usize> Stepped<'_, N> {
                 let force = &seen.coefficients[0];
                 strongest = strongest.max(force[0].abs());
                 error = error.max(force[DEGREE].abs() / (rtol * strongest));
+                bend = force[DEGREE].abs();
+                lack = own.lack(self.instance, self.unit(1.0, &most));
+                error = error.max(lack / rtol);
                 nodes = Some(own);
             }
             let factor = factor(error);
@@ -223,6 +271,8 @@ impl<const N: usize> Stepped<'_, N> {
                 panels.push(Panel { start: time, end: time + length, coefficients });
             }
             track.steps.extend(nodes);
+            track.lack += lack;
+            track.bend = track.bend.max(bend);
             track.work.accepted += 1;
             if until.is_some() {
                 return released(course, track);
