@@ -39,12 +39,13 @@ pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
     (TOLERANCES[level] * accuracy.min(LOOSEST)).max(FINEST)
 }
 
-/// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value
-/// differs from that before by its error, but for what its own steps lack. `None` where a solution is not of the plain kind, or none suffices.
+/// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value,
+/// with what its error is a part of, differs from that before by its error, but for what its own steps lack. `None` where
+/// a solution is not of the plain kind, or none suffices.
 pub(crate) fn with_bars<const N: usize>(
     stepped: &Stepped<'_, N>,
     tolerances: &[f64],
-    read: &dyn Fn(&Course<N>) -> Vec<f64>,
+    read: &dyn Fn(&Course<N>) -> Vec<[f64; 2]>,
     suffice: &dyn Fn(&[f64], &[f64]) -> bool,
 ) -> Option<Found<N>> {
     let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
@@ -53,19 +54,20 @@ pub(crate) fn with_bars<const N: usize>(
     for (others, rtol) in (1..).zip(tolerances) {
         let wall = begin.elapsed();
         let course = stepped.follow(rtol)?;
-        let values = read(&course);
-        let differences = || values.iter().zip(&before).map(|(one, other)| (one - other).abs());
-        let relative = differences().zip(&values).map(|(off, value)| off / value.abs());
-        let most = relative.fold(0.0, f64::max);
-        let (ratio, own) = (most / doubt, course.doubt());
-        let bar = |(off, value): (f64, &f64)| off + (DOUBT * most + own + ROUNDING) * value.abs();
-        let errors: Vec<f64> = differences().zip(&values).map(bar).collect();
+        let own = read(&course);
+        let both = || own.iter().zip(&before);
+        let differences = || both().map(|([value, unit], old)| ((value - old[0]).abs(), *unit));
+        let most = differences().map(|(off, unit)| off / unit).fold(0.0, f64::max);
+        let (ratio, doubted) = (most / doubt, course.doubt());
+        let bar = |(off, unit): (f64, f64)| off + (DOUBT * most + doubted + ROUNDING) * unit;
+        let errors: Vec<f64> = differences().map(bar).collect();
+        let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
         if suffice(&values, &errors) {
             work.wall = wall;
             return Some(Found { values, errors, course, ratio, others, work });
         }
         added(&mut work, &course.track.work);
-        (before, doubt) = (values, own);
+        (before, doubt) = (own, doubted);
     }
     None
 }

@@ -151,7 +151,7 @@ fn followed<const N: usize>(
     if !settings.estimate {
         let rtol = settings.rtol.unwrap_or(SINGLE);
         let course = stepped.follow(rtol)?;
-        let values = read(&course);
+        let values: Vec<f64> = read(&course).into_iter().map(|[value, _]| value).collect();
         let is_finite = values.iter().all(|value| value.is_finite());
         let errors = vec![f64::NAN; values.len()];
         let work = Statistics::default();

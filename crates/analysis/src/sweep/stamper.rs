@@ -199,10 +199,9 @@ impl<const N: usize> Sized<'_, N> {
     ) -> Option<Notice> {
         let course = self.stepped().follow(self.tolerance(level))?;
         let seen = self.plan.seen(&course, &self.numbers);
-        values.copy_from_slice(&seen);
-        let (doubt, exponent) = (factor * course.doubt(), self.plan.wanted.power.unwrap_or(1.0));
-        for ((error, value), shown) in errors.iter_mut().zip(&*values).zip(&self.plan.shown) {
-            *error = doubt * shown.order(exponent) * shown.size(*value);
+        let doubt = factor * course.doubt();
+        for ((value, error), [own, unit]) in values.iter_mut().zip(&mut *errors).zip(seen) {
+            (*value, *error) = (own, doubt * unit);
         }
         let is_known = factor.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());
