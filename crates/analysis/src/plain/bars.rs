@@ -26,7 +26,7 @@ pub(crate) struct Found<const N: usize> {
     /// How far off each value may be.
     pub(crate) errors: Vec<f64>,
     pub(crate) course: Course<N>,
-    /// The largest relative difference from the solution before, in parts of what that one [doubts](Course::doubt).
+    /// The largest relative difference from the solution before, in parts of the error that one [estimates by itself](Course::relative_error).
     pub(crate) ratio: f64,
     /// How many solutions there were besides.
     pub(crate) others: usize,
@@ -50,7 +50,8 @@ pub(crate) fn with_bars<const N: usize>(
 ) -> Option<Found<N>> {
     let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
     let first = stepped.follow(tolerances.next()?)?;
-    let (mut before, mut doubt, mut work) = (read(&first), first.doubt(), first.track.work);
+    let (mut before, mut estimate) = (read(&first), first.relative_error());
+    let mut work = first.track.work;
     for (others, rtol) in (1..).zip(tolerances) {
         let wall = begin.elapsed();
         let course = stepped.follow(rtol)?;
@@ -58,7 +59,7 @@ pub(crate) fn with_bars<const N: usize>(
         let both = || own.iter().zip(&before);
         let differences = || both().map(|([value, unit], old)| ((value - old[0]).abs(), *unit));
         let most = differences().map(|(off, unit)| off / unit).fold(0.0, f64::max);
-        let ratio = most / doubt;
+        let ratio = most / estimate;
         let bar = |(off, unit): (f64, f64)| off + (DOUBT * most + ROUNDING) * unit;
         let errors: Vec<f64> = differences().map(bar).collect();
         let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
@@ -67,7 +68,7 @@ pub(crate) fn with_bars<const N: usize>(
             return Some(Found { values, errors, course, ratio, others, work });
         }
         added(&mut work, &course.track.work);
-        (before, doubt) = (own, course.doubt());
+        (before, estimate) = (own, course.relative_error());
     }
     None
 }

@@ -52,7 +52,7 @@ pub(super) struct Sized<'p, const N: usize> {
 type Solved = BTreeMap<usize, Option<Known>>;
 
 /// The number of a tolerance among [`TOLERANCES`], and the largest relative error of a solution at the one before, in
-/// parts of what that one [doubts](Course::doubt).
+/// parts of what it [estimates by itself](Course::relative_error).
 #[derive(Debug, Clone, Copy)]
 struct Known {
     level: usize,
@@ -182,15 +182,15 @@ impl<const N: usize> Sized<'_, N> {
         Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
     }
 
-    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last: what
-    /// its own steps doubt is its error, or more where it was more about it.
+    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last, with the
+    /// error that its own steps tell, or more where it was more at those points.
     fn spared(&self, known: Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
         let factor = f64::max(1.0, BETWEEN * known.ratio);
         let mut levels = known.level.saturating_sub(1)..=known.level;
         levels.find_map(|level| self.once((level, factor), values, errors))
     }
 
-    /// Solves a scene that is not linear once at a tolerance, with errors so many times what its steps doubt.
+    /// Solves a scene that is not linear once at a tolerance, with errors so many times what its steps tell.
     fn once(
         &self,
         (level, factor): (usize, f64),
@@ -199,9 +199,9 @@ impl<const N: usize> Sized<'_, N> {
     ) -> Option<Notice> {
         let course = self.stepped().follow(self.tolerance(level))?;
         let seen = self.plan.seen(&course, &self.numbers);
-        let doubt = factor * course.doubt();
+        let relative = factor * course.relative_error();
         for ((value, error), [own, unit]) in values.iter_mut().zip(&mut *errors).zip(seen) {
-            (*value, *error) = (own, doubt * unit);
+            (*value, *error) = (own, relative * unit);
         }
         let is_known = factor.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());

@@ -27,7 +27,8 @@ impl Interpolation {
         let count = degree + 1;
         let d = degree as f64;
         // The sine makes the nodes symmetric about an exact zero.
-        let nodes: Vec<f64> = (0..count).map(|j| (FRAC_PI_2 * (2.0 * j as f64 - d) / d).sin()).collect();
+        let nodes: Vec<f64> =
+            (0..count).map(|j| (FRAC_PI_2 * (2.0 * j as f64 - d) / d).sin()).collect();
         let half = |index: usize| if index == 0 || index == degree { 0.5 } else { 1.0 };
         let mut transform = Vec::with_capacity(count * count);
         for j in 0..count {
