@@ -40,8 +40,8 @@ pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
 }
 
 /// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value,
-/// with what its error is a part of, differs from that before by its error. `None` where a solution is not of the plain
-/// kind, or none suffices.
+/// with what its error is a part of, differs from that before by its error, or less where two agree by chance: then it is
+/// that of its own steps. `None` where a solution is not of the plain kind, or none suffices.
 pub(crate) fn with_bars<const N: usize>(
     stepped: &Stepped<'_, N>,
     tolerances: &[f64],
@@ -59,8 +59,8 @@ pub(crate) fn with_bars<const N: usize>(
         let both = || own.iter().zip(&before);
         let differences = || both().map(|([value, unit], old)| ((value - old[0]).abs(), *unit));
         let most = differences().map(|(off, unit)| off / unit).fold(0.0, f64::max);
-        let ratio = most / estimate;
-        let bar = |(off, unit): (f64, f64)| off + (DOUBT * most + ROUNDING) * unit;
+        let (ratio, own_error) = (most / estimate, course.relative_error());
+        let bar = |(off, unit): (f64, f64)| off + (DOUBT * most + own_error + ROUNDING) * unit;
         let errors: Vec<f64> = differences().map(bar).collect();
         let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
         if suffice(&values, &errors) {
@@ -68,7 +68,7 @@ pub(crate) fn with_bars<const N: usize>(
             return Some(Found { values, errors, course, ratio, others, work });
         }
         added(&mut work, &course.track.work);
-        (before, estimate) = (own, course.relative_error());
+        (before, estimate) = (own, own_error);
     }
     None
 }
