@@ -403,3 +403,62 @@ fn drops_onto_a_rigid_stop_have_an_infinite_peak() {
     let words: Vec<_> = verdicts.iter().map(|own| own.as_str().unwrap_or("none")).collect();
     assert_eq!(words, ["pass", "fail"], "{own}");
 }
+
+/// `∫ f` from 0 to `end`, by Simpson's rule over the fourth root, in which powers of it are smooth.
+fn integral(end: f64, f: &dyn Fn(f64) -> f64) -> f64 {
+    let (count, root) = (2000, end.powf(0.25));
+    let at = |step: u32| {
+        let own = root * f64::from(step) / f64::from(count);
+        let weight = match step {
+            0 => 1.0,
+            own if own == count => 1.0,
+            own => 2.0 + 2.0 * f64::from(own % 2),
+        };
+        weight * 4.0 * own.powi(3) * f(own.powi(4))
+    };
+    (0..=count).map(at).sum::<f64>() * root / (3.0 * f64::from(count))
+}
+
+#[test]
+fn points_of_curves_on_elastic_foam_are_what_energy_tells() {
+    // Modulus, plateau, densification [Pa], exponent, thickness [m], height [m], static stresses [Pa].
+    let drops = [
+        ([10_216_000.0, 215_690.0, 32_010.0, 3.3531, 0.066_602, 0.7781], "5847.23..53837.3 Pa,40"),
+        ([20_429_000.0, 362_750.0, 119_010.0, 2.9228, 0.07186, 0.8875], "11299.5..100628 Pa,40"),
+        ([13_323_000.0, 237_130.0, 19_987.0, 2.6408, 0.057_839, 0.3839], "7784.45..42263.1 Pa,40"),
+        ([6_973_300.0, 129_630.0, 23_149.0, 2.3534, 0.031_441, 0.4703], "974.066..12890.6 Pa,40"),
+    ];
+    let (folder, mut seen) = (TempDir::new().unwrap(), 0);
+    for ([modulus, plateau, dense, exponent, thickness, height], stresses) in drops {
+        let foam = format!(
+            "{{ foam = {{ modulus = \"{modulus} Pa\", plateau = \"{plateau} Pa\", densification = \"{dense} Pa\", \
+             exponent = {exponent} }} }}"
+        );
+        let path = file(&folder, "elastic.toml", &scene(&foam, ""));
+        let at = [format!("{height} m"), format!("{thickness} m")];
+        let [height_text, thickness_text] = at.each_ref().map(String::as_str);
+        let arguments = ["--heights", height_text, "--thickness", thickness_text];
+        let rest = ["--stress", stresses, "--json"];
+        let own = json(&[&["cushion", text(&path)], &arguments[..], &rest].concat());
+        let curve = &own["curves"][0];
+        let law = |strain: f64| {
+            let solid = dense * (strain / (1.0 - strain)).powf(exponent);
+            solid - plateau * (-modulus * strain / plateau).exp_m1()
+        };
+        let [stress, peak, error] = ["stress", "peak", "error"].map(|own| numbers(&curve[own]));
+        for ((stress, peak), error) in stress.iter().zip(&peak).zip(&error) {
+            // σ (H + y) = h ∫ σ(ε) dε at the deepest point.
+            let (mut low, mut high) = (0.0, 0.98);
+            for _ in 0..50 {
+                let strain = 0.5 * (low + high);
+                let left = stress * (height + thickness * strain) / thickness;
+                if left > integral(strain, &law) { low = strain } else { high = strain }
+            }
+            let right = G0 * law(low) / stress;
+            let off = (peak - right).abs();
+            assert!(off <= *error && *error <= 1e-3 * peak, "{stress}: {peak} ± {error}, {right}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 160);
+}

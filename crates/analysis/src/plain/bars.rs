@@ -26,6 +26,8 @@ pub(crate) struct Found<const N: usize> {
     /// How far off each value may be.
     pub(crate) errors: Vec<f64>,
     pub(crate) course: Course<N>,
+    /// The largest relative difference from the solution before, in parts of the error that one [estimates by itself](Course::relative_error).
+    pub(crate) ratio: f64,
     /// How many solutions there were besides.
     pub(crate) others: usize,
     /// Work of those.
@@ -37,32 +39,36 @@ pub(crate) fn tolerance(level: usize, accuracy: f64) -> f64 {
     (TOLERANCES[level] * accuracy.min(LOOSEST)).max(FINEST)
 }
 
-/// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value
-/// differs from that before by its error. `None` where a solution is not of the plain kind, or none suffices.
+/// Solves at these tolerances, the first two of them at least, until the errors of what is read `suffice`; each value,
+/// with what its error is a part of, differs from that before by its error, or less where two agree by chance: then it is
+/// that of its own steps. `None` where a solution is not of the plain kind, or none suffices.
 pub(crate) fn with_bars<const N: usize>(
     stepped: &Stepped<'_, N>,
     tolerances: &[f64],
-    read: &dyn Fn(&Course<N>) -> Vec<f64>,
+    read: &dyn Fn(&Course<N>) -> Vec<[f64; 2]>,
     suffice: &dyn Fn(&[f64], &[f64]) -> bool,
 ) -> Option<Found<N>> {
     let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
     let first = stepped.follow(tolerances.next()?)?;
-    let (mut before, mut work) = (read(&first), first.track.work);
+    let (mut before, mut estimate) = (read(&first), first.relative_error());
+    let mut work = first.track.work;
     for (others, rtol) in (1..).zip(tolerances) {
         let wall = begin.elapsed();
         let course = stepped.follow(rtol)?;
-        let values = read(&course);
-        let differences = || values.iter().zip(&before).map(|(one, other)| (one - other).abs());
-        let relative = differences().zip(&values).map(|(off, value)| off / value.abs());
-        let most = relative.fold(0.0, f64::max);
-        let bar = |(off, value): (f64, &f64)| off + (DOUBT * most + ROUNDING) * value.abs();
-        let errors: Vec<f64> = differences().zip(&values).map(bar).collect();
+        let own = read(&course);
+        let both = || own.iter().zip(&before);
+        let differences = || both().map(|([value, unit], old)| ((value - old[0]).abs(), *unit));
+        let most = differences().map(|(off, unit)| off / unit).fold(0.0, f64::max);
+        let (ratio, own_error) = (most / estimate, course.relative_error());
+        let bar = |(off, unit): (f64, f64)| off + (DOUBT * most + own_error + ROUNDING) * unit;
+        let errors: Vec<f64> = differences().map(bar).collect();
+        let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
         if suffice(&values, &errors) {
             work.wall = wall;
-            return Some(Found { values, errors, course, others, work });
+            return Some(Found { values, errors, course, ratio, others, work });
         }
         added(&mut work, &course.track.work);
-        before = values;
+        (before, estimate) = (own, own_error);
     }
     None
 }

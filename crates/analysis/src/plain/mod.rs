@@ -83,7 +83,7 @@ fn solved<const N: usize>(scene: &Scene<'_>) -> Option<Told> {
     let (time, end) = (scales.time, (settings.duration - scene.fall) / scales.time);
     let stepped = Stepped { instance: &instance, unknowns: parametric.unknowns(), end };
     let (found, rtol) = followed(scene, &stepped)?;
-    let Found { values, errors, course, others, work } = found;
+    let Found { values, errors, course, others, work, .. } = found;
     let masses = parametric.masses_and_speeds(numbers, &instance);
     let parts = parametric.parts(&instance);
     let whole = end - course.release;
@@ -151,11 +151,12 @@ fn followed<const N: usize>(
     if !settings.estimate {
         let rtol = settings.rtol.unwrap_or(SINGLE);
         let course = stepped.follow(rtol)?;
-        let values = read(&course);
+        let values: Vec<f64> = read(&course).into_iter().map(|[value, _]| value).collect();
         let is_finite = values.iter().all(|value| value.is_finite());
         let errors = vec![f64::NAN; values.len()];
         let work = Statistics::default();
-        return is_finite.then_some((Found { values, errors, course, others: 0, work }, rtol));
+        let own = Found { values, errors, course, ratio: 0.0, others: 0, work };
+        return is_finite.then_some((own, rtol));
     }
     let tolerances: Vec<f64> = if let Some(rtol) = settings.rtol {
         if COARSER * rtol > tolerance(0, LOOSEST) {

@@ -109,10 +109,10 @@ impl<'s> Scene<'s> {
         })
     }
 
-    /// The measures, and when the impact ends \[s\] after the touch.
-    pub(super) fn read<const N: usize>(&self, course: &Course<N>) -> Vec<f64> {
-        let own = self.shown.iter().map(|&shown| self.scales.read(shown, course));
-        own.chain([course.release * self.scales.time]).collect()
+    /// The measures, and when the impact ends \[s\] after the touch, each with what its error is a part of.
+    pub(super) fn read<const N: usize>(&self, course: &Course<N>) -> Vec<[f64; 2]> {
+        let own = self.shown.iter().map(|&shown| self.scales.figure(shown, course));
+        own.chain([[course.release * self.scales.time; 2]]).collect()
     }
 
     /// Whether no error exceeds what is wanted.

@@ -133,8 +133,22 @@ pub(crate) struct Scales {
 }
 
 impl Scales {
+    /// A measure of an impact, and what its error is a part of where forces and speeds are off by that part of theirs: an
+    /// energy that is lost is a small difference of large ones.
+    pub(crate) fn figure<const N: usize>(&self, shown: Shown, course: &Course<N>) -> [f64; 2] {
+        let value = self.read(shown, course);
+        let unit = match shown {
+            Shown::Restitution => 1.0,
+            Shown::Work | Shown::WorkAtEnd => course.strongest.value * course.deepest.value,
+            Shown::Severity => self.exponent * value.abs(),
+            Shown::Hic(_) => 2.5 * value.abs(),
+            _ => value.abs(),
+        };
+        [value, unit]
+    }
+
     /// A measure of an impact.
-    pub(crate) fn read<const N: usize>(&self, shown: Shown, course: &Course<N>) -> f64 {
+    fn read<const N: usize>(&self, shown: Shown, course: &Course<N>) -> f64 {
         let Self { time, thickness, exponent, .. } = *self;
         let unit = self.mass * STANDARD_GRAVITY;
         let Course { force, speed, release, strongest, deepest, .. } = course;

@@ -24,6 +24,8 @@ const MOST: usize = 2000;
 const OVERSHOOT: f64 = 0.02;
 /// Part of the largest force below which one that does not fall on for good may have ended the impact.
 const SLIGHT: f64 = 1e-2;
+/// Errors are taken for so many times the defects of the steps.
+const SAFE: f64 = 3.0;
 /// A law may be stretched beyond its range by this part of it.
 const BEYOND: f64 = 1e-6;
 /// A polynomial goes no further beyond what it is at the nodes than this part of the room between these values.
@@ -46,6 +48,29 @@ impl<const N: usize> Nodes<N> {
             *own = instance.completed(&step.at(place(at)));
         }
         Self { start, end, values }
+    }
+
+    /// The integrated defect of the step: by how much the unknowns at its nodes differ at most from the integral of their
+    /// slopes there, each in the unit that is given of its number and magnitude. These slopes are not those that the step
+    /// was made of, so it tells of what these have missed.
+    fn defect(&self, instance: &Instance<N>, unit: impl Fn(usize, f64) -> f64) -> f64 {
+        let mut sums = [[0.0; N]; DEGREE + 1];
+        let half = 0.5 * (self.end - self.start);
+        let nodes = Interpolation::of_degree(DEGREE);
+        for (z, weights) in self.values.iter().zip(nodes.integrals()) {
+            let slopes = apply(&instance.matrix, z);
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                sum.iter_mut().zip(&slopes).for_each(|(sum, slope)| *sum += weight * slope);
+            }
+        }
+        let [first, .., last] = &self.values;
+        let relative = |at: usize| {
+            let unit = unit(at, first[at].abs().max(last[at].abs()));
+            let off = |(sum, z): (&[f64; N], &[f64; N])| (first[at] + half * sum[at] - z[at]).abs();
+            let most = sums.iter().zip(&self.values).map(off).fold(0.0, f64::max);
+            if unit > 0.0 { most / unit } else { 0.0 }
+        };
+        (0..N).map(relative).fold(0.0, f64::max)
     }
 
     /// When it ends.
@@ -85,11 +110,15 @@ impl<const N: usize> Nodes<N> {
 pub(crate) struct Track<const N: usize> {
     pub(crate) steps: Vec<Nodes<N>>,
     pub(crate) work: Statistics,
+    /// The sum of the [defects](Nodes::defect) of its steps.
+    defect: f64,
+    /// The largest last coefficient of the force in a step \[N\].
+    truncation: f64,
 }
 
 impl<const N: usize> Track<N> {
     fn new() -> Self {
-        Self { steps: Vec::new(), work: Statistics::default() }
+        Self { steps: Vec::new(), work: Statistics::default(), defect: 0.0, truncation: 0.0 }
     }
 
     /// What is looked at, over time.
@@ -132,6 +161,20 @@ pub(crate) struct Course<const N: usize> {
 }
 
 impl<const N: usize> Course<N> {
+    /// An estimate of the relative error of forces, deformations, speeds and times that are read off it, from the defects
+    /// of its steps.
+    pub(crate) fn relative_error(&self) -> f64 {
+        let Self { track, strongest, .. } = self;
+        SAFE * track.defect * self.sensitivity().max(1.0) + track.truncation / strongest.value
+    }
+
+    /// The relative change of the largest force over that of the speed at the start. Where energy is kept this is `v₀² |F̈| / (F ÿ²)` at the peak: 1 for a linear spring, less on a plateau, more where it stiffens.
+    fn sensitivity(&self) -> f64 {
+        let Self { force, speed, strongest: peak, .. } = self;
+        let bend = force.panels[force.panel_at(peak.time)].derivative().slope(peak.time);
+        (speed.value(0.0) / speed.slope(peak.time)).powi(2) * bend.abs() / peak.value
+    }
+
     /// Whether the force comes so near to zero, and goes on, that the impact may have ended there.
     fn lingers(&self) -> bool {
         let slight = SLIGHT * self.strongest.value;
@@ -189,6 +232,7 @@ impl<const N: usize> Stepped<'_, N> {
             let mut error = step.error(self.unit(rtol, &most));
             let mut seen = Seen::default();
             let mut nodes = None;
+            let (mut defect, mut truncation) = (0.0, 0.0_f64);
             if error <= 1.0 {
                 step.fit(&mut slopes);
                 track.work.rhs_calls += 1 + FURTHER.len();
@@ -196,7 +240,9 @@ impl<const N: usize> Stepped<'_, N> {
                 seen = Seen::of(&own, &looks);
                 let force = &seen.coefficients[0];
                 strongest = strongest.max(force[0].abs());
-                error = error.max(force[DEGREE].abs() / (rtol * strongest));
+                truncation = force[DEGREE].abs();
+                defect = own.defect(self.instance, self.unit(1.0, &most));
+                error = error.max(truncation / (rtol * strongest)).max(defect / rtol);
                 nodes = Some(own);
             }
             let factor = factor(error);
@@ -223,6 +269,8 @@ impl<const N: usize> Stepped<'_, N> {
                 panels.push(Panel { start: time, end: time + length, coefficients });
             }
             track.steps.extend(nodes);
+            track.defect += defect;
+            track.truncation = track.truncation.max(truncation);
             track.work.accepted += 1;
             if until.is_some() {
                 return released(course, track);

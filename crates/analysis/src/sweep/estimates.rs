@@ -18,7 +18,8 @@ pub enum Estimates {
     /// their relative errors. A group whose three differ in kind, by more than 30 times in an error, or of
     /// which the middle one is not within both errors if it is solved once, is halved, and so are its parts:
     /// at every point of one of less than six, and at points that are of another kind than the three. Points that are
-    /// instantiated are of another kind than those that are solved in full, and are halved by themselves.
+    /// instantiated are of another kind than those that are solved in full: each has an error of its own, by the
+    /// defects of its steps, at least so many times of that as it was at three of them.
     #[default]
     Some,
     /// At none.

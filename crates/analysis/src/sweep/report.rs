@@ -56,7 +56,7 @@ pub struct SweepReport {
     /// How many points were instantiated; all others were solved in full.
     pub instantiated: usize,
     /// At how many points errors were estimated by further solutions, where no bound is known without them; the
-    /// rest have those of points near them.
+    /// rest have those that their steps tell where they were instantiated, else those of points near them.
     pub estimated: usize,
     /// The instantiated points that were solved in full as well.
     pub checked: Vec<usize>,

@@ -80,14 +80,18 @@ impl Plan<'_> {
         }
     }
 
-    /// What is looked at over the steps of a scene that is not linear.
-    pub(super) fn seen<const N: usize>(&self, course: &Course<N>, numbers: &[f64]) -> Vec<f64> {
+    /// What is looked at over the steps of a scene that is not linear, and what the errors are parts of.
+    pub(super) fn seen<const N: usize>(
+        &self,
+        course: &Course<N>,
+        numbers: &[f64],
+    ) -> Vec<[f64; 2]> {
         let scales = Scales {
             time: self.parametric.time_scale(),
             mass: self.parametric.impactor_mass(numbers),
             thickness: Besides::of(numbers).thickness,
             exponent: self.wanted.power.unwrap_or(1.0),
         };
-        self.shown.iter().map(|&shown| scales.read(shown, course)).collect()
+        self.shown.iter().map(|&shown| scales.figure(shown, course)).collect()
     }
 }

@@ -24,11 +24,8 @@ use crate::{
 const LOOSEST: f64 = 1e-6;
 /// At least so many points of a part of a group have errors of their own at some only.
 const FEWEST: usize = 6;
-/// The errors of all values at points between, in parts of the largest relative one, as any of those may be small by
-/// chance: of solutions at the last tolerance …
-const BETWEEN: f64 = 2.0;
-/// … and at the one before.
-const COARSER: f64 = 10.0;
+/// The largest of the ratios at three points that holds for those between, in parts of it.
+const BETWEEN: f64 = 3.0;
 
 /// Solves points, one after the other.
 pub(super) trait Stamper {
@@ -54,11 +51,12 @@ pub(super) struct Sized<'p, const N: usize> {
 /// full.
 type Solved = BTreeMap<usize, Option<Known>>;
 
-/// A tolerance among [`TOLERANCES`], and the error that comes of it, in parts of a value.
+/// The number of a tolerance among [`TOLERANCES`], and the largest relative error of a solution at the one before, in
+/// parts of what it [estimates by itself](Course::relative_error).
 #[derive(Debug, Clone, Copy)]
 struct Known {
     level: usize,
-    error: f64,
+    ratio: f64,
 }
 
 impl<const N: usize> Stamper for Sized<'_, N> {
@@ -68,7 +66,7 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             return self.carry(values, errors);
         }
         match self.plan.estimates {
-            Estimates::Off => self.once(Known { level: 0, error: f64::NAN }, values, errors),
+            Estimates::Off => self.once((0, f64::NAN), values, errors),
             Estimates::All | Estimates::Some => Some(self.estimated(values, errors)?.0),
         }
     }
@@ -97,7 +95,7 @@ impl<const N: usize> Stamper for Sized<'_, N> {
                 }
                 row.notice = known.flatten().and_then(|known| {
                     self.pose(row.point)?;
-                    self.once(known, row.values, row.errors)
+                    self.spared(known, row.values, row.errors)
                 });
                 if row.notice.is_none() {
                     solved.insert(at, self.solved(row));
@@ -132,15 +130,13 @@ impl<'p, const N: usize> Sized<'p, N> {
     /// Solves a row of a group with its errors; `None` where it has to be solved in full.
     fn solved(&mut self, row: &mut Row<'_>) -> Option<Known> {
         self.pose(row.point)?;
-        let (notice, level) = self.estimated(row.values, row.errors)?;
+        let (notice, known) = self.estimated(row.values, row.errors)?;
         row.notice = Some(notice);
-        let sizes = self.plan.shown.iter().zip(&*row.values).map(|(own, value)| own.size(*value));
-        let relative = row.errors.iter().zip(sizes).map(|(error, size)| error / size);
-        Some(Known { level, error: relative.fold(0.0, f64::max) })
+        Some(known)
     }
 
-    /// What three rows of a part of a group agree in, if they do and it is enough for those between; those that are not
-    /// solved yet are.
+    /// What holds for the rows between three of a part of a group, where all of these can be instantiated; those that are
+    /// not solved yet are.
     fn agreed(
         &mut self,
         anchors: [usize; 3],
@@ -153,11 +149,7 @@ impl<'p, const N: usize> Sized<'p, N> {
         let all = anchors.iter().map(|at| solved.get(at).copied().flatten());
         let all = all.collect::<Option<Vec<Known>>>()?;
         let level = all.iter().map(|own| own.level).max()?;
-        let error = all.iter().map(|own| own.error).fold(0.0, f64::max);
-        // Errors are differences from the coarser solution, so they are its errors first of all.
-        let coarser = Known { level: level.saturating_sub(1), error: COARSER * error };
-        let finer = Known { level, error: BETWEEN * error };
-        [coarser, finer].into_iter().find(|own| own.error <= self.plan.strictest())
+        Some(Known { level, ratio: all.iter().map(|own| own.ratio).fold(0.0, f64::max) })
     }
 }
 
@@ -190,23 +182,35 @@ impl<const N: usize> Sized<'_, N> {
         Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
     }
 
-    /// Solves a scene that is not linear once, where errors are known from others.
-    fn once(&self, known: Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
-        let course = self.stepped().follow(self.tolerance(known.level))?;
+    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last, with the
+    /// error that its own steps tell, or more where it was more at those points.
+    fn spared(&self, known: Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
+        let factor = f64::max(1.0, BETWEEN * known.ratio);
+        let mut levels = known.level.saturating_sub(1)..=known.level;
+        levels.find_map(|level| self.once((level, factor), values, errors))
+    }
+
+    /// Solves a scene that is not linear once at a tolerance, with errors so many times what its steps tell.
+    fn once(
+        &self,
+        (level, factor): (usize, f64),
+        values: &mut [f64],
+        errors: &mut [f64],
+    ) -> Option<Notice> {
+        let course = self.stepped().follow(self.tolerance(level))?;
         let seen = self.plan.seen(&course, &self.numbers);
-        values.copy_from_slice(&seen);
-        for ((error, value), shown) in errors.iter_mut().zip(&*values).zip(&self.plan.shown) {
-            *error = known.error * shown.size(*value);
+        let relative = factor * course.relative_error();
+        for ((value, error), [own, unit]) in values.iter_mut().zip(&mut *errors).zip(seen) {
+            (*value, *error) = (own, relative * unit);
         }
-        let is_known = known.error.is_nan() || self.suffice(values, errors);
+        let is_known = factor.is_nan() || self.suffice(values, errors);
         let is_finite = values.iter().all(|value| value.is_finite());
-        let is_good = is_known && is_finite && self.is_plain(&course, self.tolerance(known.level));
+        let is_good = is_known && is_finite && self.is_plain(&course, self.tolerance(level));
         is_good.then(|| self.noticed(&course))
     }
 
-    /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and the last
-    /// tolerance.
-    fn estimated(&self, values: &mut [f64], errors: &mut [f64]) -> Option<(Notice, usize)> {
+    /// Solves a scene that is not linear as often as its errors ask for; what is to be said, and what is known of it.
+    fn estimated(&self, values: &mut [f64], errors: &mut [f64]) -> Option<(Notice, Known)> {
         let stepped = self.stepped();
         let tolerances: [f64; TOLERANCES.len()] =
             std::array::from_fn(|level| self.tolerance(level));
@@ -218,7 +222,8 @@ impl<const N: usize> Sized<'_, N> {
         }
         values.copy_from_slice(&found.values);
         errors.copy_from_slice(&found.errors);
-        Some((self.noticed(&found.course), found.others))
+        let known = Known { level: found.others, ratio: found.ratio };
+        Some((self.noticed(&found.course), known))
     }
 
     /// Whether no stop is met, and nothing meets again what has left it, as far as that has to be looked at.

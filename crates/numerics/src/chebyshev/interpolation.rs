@@ -2,6 +2,8 @@
 
 use std::{borrow::Cow, f64::consts::FRAC_PI_2, f64::consts::PI, sync::OnceLock};
 
+use super::{antiderivative, evaluate};
+
 /// Highest degree that is kept ready.
 const KEPT: usize = 32;
 
@@ -12,18 +14,21 @@ pub struct Interpolation {
     nodes: Vec<f64>,
     /// `c_k = Σ_j transform[j (d+1) + k] v_j`.
     transform: Vec<f64>,
+    /// The integral from −1 to `x_k` is `Σ_j integration[j (d+1) + k] v_j`.
+    integration: Vec<f64>,
 }
 
 impl Interpolation {
     /// Interpolation by polynomials of this degree.
     pub fn new(degree: usize) -> Self {
         if degree == 0 {
-            return Self { nodes: vec![0.0], transform: vec![1.0] };
+            return Self { nodes: vec![0.0], transform: vec![1.0], integration: vec![1.0] };
         }
         let count = degree + 1;
         let d = degree as f64;
         // The sine makes the nodes symmetric about an exact zero.
-        let nodes = (0..count).map(|j| (FRAC_PI_2 * (2.0 * j as f64 - d) / d).sin()).collect();
+        let nodes: Vec<f64> =
+            (0..count).map(|j| (FRAC_PI_2 * (2.0 * j as f64 - d) / d).sin()).collect();
         let half = |index: usize| if index == 0 || index == degree { 0.5 } else { 1.0 };
         let mut transform = Vec::with_capacity(count * count);
         for j in 0..count {
@@ -33,7 +38,13 @@ impl Interpolation {
                 transform.push(2.0 / d * half(k) * half(j) * angle.cos());
             }
         }
-        Self { nodes, transform }
+        let mut integration = Vec::with_capacity(count * count);
+        for row in transform.chunks_exact(count) {
+            let own = antiderivative(row);
+            let first = evaluate(&own, -1.0);
+            integration.extend(nodes.iter().map(|&node| evaluate(&own, node) - first));
+        }
+        Self { nodes, transform, integration }
     }
 
     /// As [`new`](Self::new), but shared for degrees up to 32.
@@ -58,6 +69,11 @@ impl Interpolation {
     /// For each node what a value of 1 there adds to the coefficients.
     pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
         self.transform.chunks_exact(self.nodes.len())
+    }
+
+    /// For each node the integrals of the polynomial that is 1 there and 0 at the others, from −1 to each node.
+    pub fn integrals(&self) -> impl Iterator<Item = &[f64]> {
+        self.integration.chunks_exact(self.nodes.len())
     }
 
     /// Writes to `out` the coefficients of the polynomial with these `values` at the nodes.

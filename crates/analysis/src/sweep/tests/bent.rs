@@ -3,7 +3,7 @@
 use dashpot_network::{
     Model, Network, Node, dashpot,
     effects::{Gravity, GravityStart, Separation},
-    elements::{CubicSpring, Foam, PowerSpring, StiffeningSpring},
+    elements::{CubicSpring, Foam, PowerSpring, StiffeningSpring, TableSpring},
     part, spring,
 };
 
@@ -98,7 +98,7 @@ fn what_lets_go_and_what_falls_is_instantiated_too() {
     }
 }
 
-/// A pad of one of four shapes that are not linear, at random.
+/// A pad of one of five shapes that are not linear, at random.
 fn bent(shape: usize, random: &mut Random) -> Model {
     match shape {
         0 => {
@@ -110,7 +110,7 @@ fn bent(shape: usize, random: &mut Random) -> Model {
                 thickness: 0.05,
                 area: 0.0144,
             };
-            Tree::parallel([part(foam), dashpot(random.ratio(20.0, 200.0))])
+            Tree::parallel([part(foam), dashpot(random.ratio(2.0, 600.0))])
         }
         1 => {
             let hardening =
@@ -122,11 +122,23 @@ fn bent(shape: usize, random: &mut Random) -> Model {
             let power = PowerSpring { force: random.ratio(1e3, 4e3), at: 0.01, exponent: 1.5 };
             Tree::parallel([part(power), dashpot(random.ratio(1e2, 4e2))])
         }
-        _ => {
+        3 => {
             let (stiffness, limit) = (random.ratio(2e4, 6e4), random.ratio(0.06, 0.1));
             let maxwell =
                 Tree::series([spring(random.ratio(1e4, 6e4)), dashpot(random.ratio(1e2, 1e3))]);
             Tree::parallel([part(StiffeningSpring { stiffness, limit }), maxwell])
+        }
+        _ => {
+            // Measured points of a foam, whose curve bends anew at each.
+            let stress = |strain: f64| 1e5 * (1.0 - (-10.0 * strain).exp()) + 3e4 * strain.powi(4);
+            let mut force = |at: u32| {
+                let strain = f64::from(at) / 14.0;
+                let dense = 4e4 * (strain / (1.0 - strain)).powi(2);
+                (0.05 * strain, 0.0144 * (stress(strain) + dense) * random.ratio(0.99, 1.01))
+            };
+            let points: Vec<(f64, f64)> = (0..14).map(&mut force).collect();
+            let table = part(TableSpring::new(points).unwrap());
+            Tree::parallel([table, dashpot(random.ratio(2.0, 200.0))])
         }
     }
 }
@@ -146,12 +158,12 @@ fn laws_that_are_not_linear_are_instantiated_in_steps() {
     }
 }
 
-/// Each of so many random pads of each shape at 150 heights of the drop, beside solutions to 1e-10; how many of the
-/// values between the points at which errors are estimated are within them, of how many.
-fn within_errors(pads: usize) -> [usize; 2] {
-    let (mut random, mut within, mut instantiated) = (Random(13), [0, 0], 0);
+/// Each of so many random pads of each shape at 150 heights of the drop, beside solutions to 1e-10: how many values there
+/// are, outside of their errors, beyond three of them, and off by more than is asked for.
+fn outside_errors(seed: u64, pads: usize) -> [usize; 4] {
+    let (mut random, mut all, mut instantiated) = (Random(seed), [0; 4], 0);
     let keys = &ALL.map(str::to_owned)[..9];
-    for shape in (0..4).cycle().take(4 * pads) {
+    for shape in (0..5).cycle().take(5 * pads) {
         let model = bent(shape, &mut random);
         let grid = Grid::new(vec![150]).unwrap();
         let swept = |rtol: Option<f64>| {
@@ -179,26 +191,33 @@ fn within_errors(pads: usize) -> [usize; 2] {
         assert_eq!(truth.instantiated, 0);
         instantiated += found.instantiated;
         for (at, right) in truth.values.iter().enumerate() {
-            let is_within = (found.values[at] - right).abs() <= found.errors[at] + 1e-8 * right;
-            within[0] += usize::from(is_within);
-            within[1] += 1;
+            let (value, error) = (found.values[at], found.errors[at]);
+            let (off, key) = ((value - right).abs(), &found.columns[at % found.columns.len()].key);
+            let bars = (off - 1e-8 * right).max(0.0) / error;
+            let most = 1e-3 * if key.ends_with("restitution") { 1.0 } else { *right };
+            if bars > 1.0 || off > most {
+                println!("{key} {at} of {shape}: {value} ± {error}, {right}: {bars}, {model:?}");
+            }
+            let counts = [true, bars.is_nan() || bars > 1.0, bars > 3.0, off > most];
+            all.iter_mut().zip(counts).for_each(|(all, count)| *all += usize::from(count));
         }
     }
+    println!("{all:?}, {instantiated} of {} instantiated", 750 * pads);
     assert!(instantiated > 500 * pads, "{instantiated}");
-    within
+    all
 }
 
 #[test]
 fn errors_between_hold_for_random_pads() {
-    let [within, of] = within_errors(2);
-    assert!(within as f64 >= 0.999 * of as f64, "{within} of {of}");
+    assert_eq!(outside_errors(13, 2)[1..], [0; 3]);
 }
 
 #[test]
 #[ignore = "takes minutes; the whole of what the test before does a part of"]
 fn errors_between_hold_for_many_random_pads() {
-    let [within, of] = within_errors(30);
-    assert!(within as f64 >= 0.999 * of as f64, "{within} of {of}");
+    let [of, outside, beyond, off] = outside_errors(13, 30);
+    assert!(outside as f64 <= 1e-3 * of as f64, "{outside} of {of}");
+    assert_eq!([beyond, off], [0; 2]);
 }
 
 /// A foam that is struck, at one of a hundred thicknesses: with separation, which `exact` declines.

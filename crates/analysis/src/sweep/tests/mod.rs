@@ -1,6 +1,7 @@
 //! Sweeps against single runs.
 
 mod bent;
+mod elastic;
 
 use std::ops::ControlFlow;
 

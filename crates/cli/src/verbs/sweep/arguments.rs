@@ -78,8 +78,8 @@ pub(crate) struct SweepArguments {
     /// points spread over the sweep [default: the scene's, else nothing].
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub(super) neglect: Option<f64>,
-    /// Where errors are estimated by further solutions; some: at three of 64 points, whose errors stand for
-    /// those near them [default: some; of a table, whose rows need not be near each other, all].
+    /// Where errors are estimated by further solutions; some: at three of 64 points; the others
+    /// have those of their steps where they are instantiated, else of those near them [default: some; of a table, whose rows need not be near each other, all].
     #[arg(long, value_enum, value_name = "WHERE")]
     pub(super) estimate: Option<EstimatedPoints>,
     /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].

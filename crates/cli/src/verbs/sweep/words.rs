@@ -300,9 +300,13 @@ pub(super) fn solving(swept: &Swept) -> Vec<String> {
     let is_of_some = matches!(swept.estimates, Estimates::Some);
     if is_of_some && (1..points).contains(&report.estimated) {
         all.push(format!(
-            "errors estimated at {} of them; the others have those of points near them \
-             (`--estimate all` for all)",
-            report.estimated
+            "errors estimated at {} of them; the others have those of {} (`--estimate all` for all)",
+            report.estimated,
+            match report.instantiated {
+                0 => "points near them",
+                own if own == points => "their steps",
+                _ => "their steps, or of points near them",
+            }
         ));
     }
     all
