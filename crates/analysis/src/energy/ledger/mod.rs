@@ -4,11 +4,14 @@ mod digested;
 mod leak;
 mod series;
 
-use std::ops::Range;
+use std::{
+    collections::{BTreeMap, HashMap},
+    ops::Range,
+};
 
 use dashpot_dae::Signal;
 use dashpot_network::{
-    Assembly, PrimitiveOutputs,
+    Assembly, NodeOutputs, PrimitiveOutputs,
     elements::Law,
     phases::{Phase, PhaseLaw},
 };
@@ -31,6 +34,8 @@ pub struct Ledger {
     pub start: f64,
     /// Kinetic energy of all masses \[J\].
     pub kinetic: f64,
+    /// What of it the masses of layers have \[J\], by element.
+    pub in_layers: Vec<(String, f64)>,
     /// Energy stored in each spring \[J\], by path.
     pub stored: Vec<(String, f64)>,
     /// Energy dissipated in each dashpot \[J\], by path.
@@ -144,6 +149,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     let window = (0.0, time);
     let mut balance = Balance::default();
     let (mut start, mut kinetic) = (0.0, 0.0);
+    let mut in_layers = InLayers::of(assembly);
     for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
         let Some(velocity) = node.velocity else { continue };
         let velocity = solution.glance(velocity);
@@ -151,6 +157,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         let last = velocity.value(time);
         start += energy(velocity.value(0.0));
         kinetic += energy(last);
+        in_layers.add(node, energy(last));
         balance.add_error(velocity.error.map(|error| node.mass * error * (last.abs() + error)));
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
@@ -204,11 +211,36 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         time,
         start,
         kinetic,
+        in_layers: in_layers.named(assembly),
         stored,
         dissipated,
         work_in,
         turned_over,
         error: balance.error(),
+    }
+}
+
+/// The kinetic energies \[J\] of the masses of layers, by element.
+struct InLayers {
+    /// The element of each body that is such a mass.
+    elements: HashMap<usize, usize>,
+    sums: BTreeMap<usize, f64>,
+}
+
+impl InLayers {
+    fn of(assembly: &Assembly) -> Self {
+        Self { elements: leak::within(assembly), sums: BTreeMap::new() }
+    }
+
+    fn add(&mut self, node: &NodeOutputs, energy: f64) {
+        if let Some(element) = self.elements.get(&node.body) {
+            *self.sums.entry(*element).or_default() += energy;
+        }
+    }
+
+    fn named(self, assembly: &Assembly) -> Vec<(String, f64)> {
+        let name = |at: usize| assembly.connections[at].name.clone();
+        self.sums.into_iter().map(|(at, sum)| (name(at), sum)).collect()
     }
 }
 
