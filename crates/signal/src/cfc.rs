@@ -13,6 +13,8 @@ const DESIGN: f64 = 2.0775;
 const LEAST_RATE: f64 = 10.0;
 /// After so many periods of the design frequency the answer to an impulse has died out to 10⁻¹².
 const MEMORY: f64 = 7.0;
+/// Samples that it remembers at most.
+const MOST_REMEMBERED: f64 = 1e7;
 
 /// A channel frequency class: a two-pole Butterworth filter that runs forward and backward, so that it has four poles
 /// and no phase. Its `ω_d = 2π · 2.0775 · CFC`, warped for the sampling interval `T` as `ω_a = tan(ω_d T/2)`.
@@ -84,6 +86,12 @@ pub enum CfcFault {
         0.5 * .rate
     )]
     TooSlow { class: f64, design: f64, rate: f64 },
+    /// A rate at which the filter remembers more samples than there is room for.
+    #[error(
+        "CFC {class} has its design frequency at {design:.0} Hz, and remembers {samples:.1e} samples of {rate:.1e} Hz; up \
+         to {MOST_REMEMBERED:.0e} are kept: look at the unit of the times"
+    )]
+    TooFast { class: f64, design: f64, rate: f64, samples: f64 },
 }
 
 /// The coefficients of one pass: `y = a (x + 2 x₁ + x₂) + b1 y₁ + b2 y₂`.
@@ -140,18 +148,33 @@ impl Cfc {
         1.0 / (1.0 + ratio.powi(4))
     }
 
+    /// For how many samples at a rate \[Hz\] the filter remembers a value.
+    ///
+    /// # Errors
+    ///
+    /// [`CfcFault::TooSlow`] where half of the rate is not above the design frequency, [`CfcFault::TooFast`] where
+    /// there are more than 10⁷.
+    pub(crate) fn memory(self, rate: f64) -> Result<f64, CfcFault> {
+        let (class, design) = (self.class, self.design_frequency());
+        let samples = MEMORY * rate / design;
+        if 2.0 * design >= rate {
+            Err(CfcFault::TooSlow { class, design, rate })
+        } else if samples <= MOST_REMEMBERED {
+            Ok(samples)
+        } else {
+            Err(CfcFault::TooFast { class, design, rate, samples })
+        }
+    }
+
     /// Filters samples at even steps.
     ///
     /// # Errors
     ///
-    /// [`CfcFault::TooSlow`] where half of the sampling rate \[Hz\] is not above the design frequency.
+    /// [`CfcFault::TooSlow`] where half of the sampling rate \[Hz\] is not above the design frequency, and
+    /// [`CfcFault::TooFast`] where the filter remembers more than 10⁷ samples.
     pub fn filter(self, values: &[f64], rate: f64, padding: Padding) -> Result<Vec<f64>, CfcFault> {
-        let design = self.design_frequency();
-        if 2.0 * design >= rate {
-            return Err(CfcFault::TooSlow { class: self.class, design, rate });
-        }
+        let wanted = self.memory(rate)?;
         let pass = self.pass(rate);
-        let wanted = MEMORY * rate / design;
         let mut length = 0;
         while (length as f64) < wanted && padding != Padding::None {
             length += 1;
