@@ -444,8 +444,7 @@ impl StVenant {
                     let restitution = -(speed + part * (next - speed));
                     return Self { contact_time, restitution, peak_force };
                 }
-                let middle = 0.5 * (speed + next)
-                    + 0.25 * step * (a - rate(at + 2, next, &before));
+                let middle = 0.5 * (speed + next) + 0.25 * step * (a - rate(at + 2, next, &before));
                 own.extend([middle + before[at + 1], next + before[at + 2]]);
                 speed = next;
             }
@@ -459,7 +458,8 @@ impl StVenant {
 /// 1 m/s; by what part the contact time and the coefficient of restitution are known.
 fn struck_rod(ratio: f64, segments: usize, method: &str) -> [f64; 2] {
     let (length, modulus, density, area) = (1.0, 200e9, 7800.0, 1e-3);
-    let (impedance, passage) = (area * f64::sqrt(modulus * density), length / f64::sqrt(modulus / density));
+    let (impedance, passage) =
+        (area * f64::sqrt(modulus * density), length / f64::sqrt(modulus / density));
     let mass = ratio * area * length * density;
     let text = format!(
         "[materials]\nsteel = {{ spring = {modulus:?} }}\n[nodes]\nhammer = {{ mass = {mass:?}, velocity = 1.0 }}\n\
@@ -481,7 +481,10 @@ fn struck_rod(ratio: f64, segments: usize, method: &str) -> [f64; 2] {
         let own = report.measure(key).unwrap();
         let (value, error) = (own.value.unwrap(), own.error.unwrap());
         let off = (value - expected).abs();
-        println!("{ratio} {segments} {key}: {value:e} ± {error:.1e}, {expected:e}, {:.2}", off / error);
+        println!(
+            "{ratio} {segments} {key}: {value:e} ± {error:.1e}, {expected:e}, {:.2}",
+            off / error
+        );
         assert!(off <= error, "{ratio} {segments} {key}: {value} ± {error}, not {expected}");
         error / value
     });

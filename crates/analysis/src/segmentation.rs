@@ -54,21 +54,21 @@ pub(crate) fn with_segments(
     let mut off = vec![Off::default(); report.measures.len()];
     let mut told: Option<(f64, [usize; 2])> = None;
     for &part in parts {
-        let Some(recut) = recut(network, part) else { return Ok(report) };
-        let counts = [recut.segments, recut.others];
+        let Some(cut) = recut(network, part) else { return Ok(report) };
+        let counts = [cut.segments, cut.others];
         if told.is_some_and(|own| own.1 == counts) {
             continue;
         }
-        let assembly = Arc::new(recut.network.compile(settings.duration)?);
+        let assembly = Arc::new(cut.network.compile(settings.duration)?);
         let own = SolveSettings { rtol: report.solver.rtol, estimate: false, ..settings.clone() };
-        let other = solve_assembly(&assembly, &words(&recut.network), &own, observer)?;
-        let safety = safety(&recut);
+        let other = solve_assembly(&assembly, &words(&cut.network), &own, observer)?;
+        let safety = safety(&cut);
         let values = other.by_key();
         for (off, measure) in off.iter_mut().zip(&report.measures) {
             let opposite = values.get(measure.key.as_str()).and_then(|own| own.value);
             off.widen(measure.value, opposite, safety);
         }
-        told.get_or_insert((recut.stated, counts));
+        told.get_or_insert((cut.stated, counts));
         report.solver.solves_for_error += 1;
     }
     let Some((stated, counts)) = told else { return Ok(report) };

@@ -54,7 +54,8 @@ impl Evidence<'_> {
         let own: Vec<Option<f64>> = (0..finest.len()).map(|at| self.of_differences(at)).collect();
         let shared = self.shared(&own);
         let bar = |((reading, own), least): ((&Reading, Option<f64>), &f64)| {
-            let whole = |own: f64| own.hypot(shared * reading.size).hypot(*least) + rounding(reading);
+            let whole =
+                |own: f64| own.hypot(shared * reading.size).hypot(*least) + rounding(reading);
             let may_be_none = |bar: f64| reading.room.is_some_and(|room| bar > room);
             own.map(whole).map(|bar| if may_be_none(bar) { f64::INFINITY } else { bar })
         };

@@ -299,8 +299,7 @@ impl<'a> Solution<'a> {
                         let connection = &self.assembly.connections[at];
                         contacts::between(self.assembly, connection).contains(&body)
                     };
-                    let impact =
-                        impact.beyond_ripples(&force, self.passage(touches), self.end());
+                    let impact = impact.beyond_ripples(&force, self.passage(touches), self.end());
                     self.ended(impact, ForceOf::Body(body))
                 }
                 None => Impact::unloaded(self.end()),

@@ -28,7 +28,11 @@ impl Recut {
 /// The network with its pads cut into this part of their segments, below 1, or where that would leave a layer
 /// without any into twice as many; `None` where no pad is cut, or can be.
 pub fn recut(network: &Network, part: f64) -> Option<Recut> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a small count")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a part of a small count"
+    )]
     let fewer = |own: usize| (part * own as f64) as usize;
     let mut found = Vec::new();
     for (at, connection) in network.connections.iter().enumerate() {

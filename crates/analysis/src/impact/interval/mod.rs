@@ -160,7 +160,8 @@ impl Impact {
             };
             let until = impact.end + front(passage, impact.end - impact.start);
             let Some(start) = again.filter(|again| *again <= until) else { break };
-            impact = Self { start: impact.start, ..Self::again(force, start, run_end, impact.contact) };
+            impact =
+                Self { start: impact.start, ..Self::again(force, start, run_end, impact.contact) };
         }
         impact
     }

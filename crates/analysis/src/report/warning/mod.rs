@@ -275,9 +275,7 @@ impl Warning {
             }
             Self::HeldTable(own) => vec![&own.name],
             Self::Network(own) => own.names(),
-            Self::Segments { measures, .. } => {
-                measures.iter().map(|own| own.0.as_str()).collect()
-            }
+            Self::Segments { measures, .. } => measures.iter().map(|own| own.0.as_str()).collect(),
         }
     }
 

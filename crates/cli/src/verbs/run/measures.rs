@@ -339,7 +339,8 @@ impl Zeros {
         let size = measure.size.max(of_unit);
         let rounding = tolerance.max(ROUNDING) * size;
         // What is as large as anything of its kind is not zero because nothing is known of it.
-        let error = if measure.value.is_some_and(|own| own.abs() < SMALL * size) { error } else { 0.0 };
+        let error =
+            if measure.value.is_some_and(|own| own.abs() < SMALL * size) { error } else { 0.0 };
         measure.value.is_some_and(|value| value.abs() <= error.max(rounding))
     }
 
