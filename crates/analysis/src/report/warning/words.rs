@@ -239,7 +239,7 @@ impl Warning {
                 };
                 write!(
                     f,
-                    "with {others} segments of layers instead of {segments} differ {}{more}, more than the \
+                    "{others} segments of layers instead of {segments} change {}{more}, more than the \
                      {} that is expected of them: cut them finer, by `segments` or `accuracy`",
                     named.collect::<Vec<_>>().join(", "),
                     percent(*stated)
