@@ -8,7 +8,8 @@
 //!
 //! Where a body strikes the layers directly, the front is as steep as the segments. The ripples behind it have no
 //! order at all, so that two numbers of segments may agree by chance: a third number is solved, forces are known to
-//! the height of the ripples, and the times at which they let go to the width of the front.
+//! the height of the ripples, and the times at which they let go to the width of the front. A force that comes within
+//! the ripples of zero may have let go there: what that makes of the measures is their error as well.
 
 use std::{sync::Arc, time::Instant};
 
@@ -24,14 +25,22 @@ use crate::{
     impact::interval::front,
     measures::{
         ContactTime, PeakAcceleration, PeakForce, PeakStrain, PeakStress, TransmittedForce,
+        selection::select,
     },
     run::{solve_assembly, words},
+    solution::undecided_releases,
 };
 
 /// What the error is taken as at least, in parts of the difference.
 const SAFETY: f64 = 4.0;
 /// The parts of the segments that a run is compared with, the second one where a front is steep.
 const PARTS: [f64; 2] = [0.5, 2.0 / 3.0];
+
+/// Height of the ripples behind a step, in parts of the largest force and of the root of the passage of a wave through a
+/// segment over the time since: `√(2/(π z))` at `z = 2 t/Δt`, and the step is reflected.
+const RIPPLE: f64 = 0.8;
+/// The height at most.
+const HIGHEST: f64 = 0.5;
 
 /// The run with the errors of its measures widened by what the segments of its layers make of them:
 /// one further solution where there are any, and errors are wanted; two where a front is steep.
@@ -53,6 +62,7 @@ pub(crate) fn with_segments(
     let parts = if steep.is_empty() { &PARTS[..1] } else { &PARTS };
     let mut off = vec![Off::default(); report.measures.len()];
     let mut told: Option<(f64, [usize; 2])> = None;
+    let mut others = Vec::new();
     for &part in parts {
         let Some(cut) = recut(network, part) else { return Ok(report) };
         let counts = [cut.segments, cut.others];
@@ -69,9 +79,13 @@ pub(crate) fn with_segments(
             off.widen(measure.value, opposite, safety);
         }
         told.get_or_insert((cut.stated, counts));
-        report.solver.solves_for_error += 1;
+        others.push(other);
     }
+    report.solver.solves_for_error += others.len();
     let Some((stated, counts)) = told else { return Ok(report) };
+    for (off, earlier) in off.iter_mut().zip(let_go(&report, &steep, settings, &others)?) {
+        off.error = off.error.max(earlier);
+    }
     let mut worst: Vec<(String, f64)> = Vec::new();
     for (off, measure) in off.iter().zip(&mut report.measures) {
         let least = steep.iter().map(|own| own.least(measure)).fold(0.0, f64::max);
@@ -93,6 +107,35 @@ pub(crate) fn with_segments(
     let [segments, others] = counts;
     report.segmentation = Some(Segmentation { segments, others });
     Ok(report)
+}
+
+/// By how much each measure changes if what is struck lets go where its force comes within the ripples of zero, and the
+/// `others` do not agree that it pushes on; nothing where it does not come so near.
+fn let_go(
+    report: &RunReport,
+    steep: &[Steep],
+    settings: &SolveSettings,
+    others: &[RunReport],
+) -> Result<Vec<f64>, RunError> {
+    let solution = report.solution();
+    let impact = solution.scene_impact();
+    let height = |own: &Steep| RIPPLE * (own.passage / (impact.end - impact.start)).sqrt();
+    let level = steep.iter().map(height).fold(0.0, f64::max).min(HIGHEST);
+    if level <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let make_others = &|| others.iter().map(RunReport::solution).collect();
+    let ends = undecided_releases(&solution, make_others, level);
+    if ends.is_empty() {
+        return Ok(Vec::new());
+    }
+    let earlier = report.solution().ending(ends);
+    let selected = select(&report.assembly, &settings.measures, &settings.limits)?;
+    let changes = selected.iter().zip(&report.measures).map(|(entry, own)| {
+        let other = entry.measure.read(&earlier, entry.target).value;
+        own.value.zip(other).map_or(0.0, |(own, other)| (own - other).abs())
+    });
+    Ok(changes.collect())
 }
 
 /// What the error is, in parts of the difference of two numbers of segments, where it falls with their cube root.
