@@ -55,20 +55,17 @@ pub(crate) fn first_that_solves(
         let share = run.budget.part(share.min(granted).min(most));
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
-            Ok(outcome) => match outcome.solved.fault(task.assembly) {
-                Some(error) => {
-                    let lacks_work =
-                        matches!(outcome.obstacle, Some(SolveError::BudgetSpent { .. }));
-                    short.extend(lacks_work.then(|| Arc::clone(&method)));
-                    error
-                }
-                None => {
+            Ok(outcome) => {
+                let Some(error) = outcome.solved.fault(task.assembly) else {
                     if !own.knows(&outcome) {
                         others.extend(short.into_iter().rev());
                     }
                     return Ok(Found { method, why, outcome });
-                }
-            },
+                };
+                let lacks_work = matches!(outcome.obstacle, Some(SolveError::BudgetSpent { .. }));
+                short.extend(lacks_work.then(|| Arc::clone(&method)));
+                error
+            }
             // No other method gets farther.
             Err(
                 error @ (SolveError::Cancelled { .. }
