@@ -10,7 +10,7 @@ use super::{
     trial::Trial,
 };
 
-/// Two tables of a scene: what lets go of the pad.
+/// What lets go of the pad.
 const PARTS: &str = "[effects]\nseparation.pad = { at = \"head\" }\n";
 /// A contact without damping that lets go by itself.
 const CONTACT: &str = "hunt-crossley = { force = \"1 kN\", at = \"1 mm\", dissipation = 0.0 }";
@@ -43,7 +43,7 @@ pub(super) fn cases() -> Vec<Case> {
         ("foam", foam, PARTS),
         (
             "table-spring",
-            "table-spring = [[0.0, 0.0], [1e-3, 50.0], [2e-3, 300.0], [4e-3, 2e3]]",
+            "table-spring = [[-1e-3, -50.0], [0.0, 0.0], [1e-3, 50.0], [2e-3, 300.0], [4e-3, 2e3]]",
             PARTS,
         ),
         ("formula", "formula = { force = \"200 N * sinh(y / 1 mm)\", up-to = \"5 mm\" }", PARTS),
@@ -151,8 +151,7 @@ fn symmetric() -> Case {
     })
 }
 
-/// Two equal springs with an equal mass each hang at equal contacts of a head: three equal bodies of 0.1 kg, of which
-/// both pairs are in mirror image.
+/// Three equal branches side by side between two equal masses.
 fn equal_branches() -> Case {
     let cube = "{ cubic-spring = { stiffness = 1e4, cubic = 1e10 } }";
     let text = Text::head(0.1, 1.0)
