@@ -265,9 +265,7 @@ impl<'a> Solution<'a> {
                         (self.element_jumps(element), self.threshold_of(connection));
                     let impact =
                         Impact::of_contact(self.signal(force), jumps, self.end(), threshold);
-                    let passage = self.passage(|at| at == element);
-                    let impact = impact.beyond_ripples(self.signal(force), passage, self.end());
-                    self.ended(impact, ForceOf::Element(element))
+                    self.ended(impact, self.signal(force), ForceOf::Element(element))
                 }
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
@@ -295,12 +293,7 @@ impl<'a> Solution<'a> {
                     let threshold = self.threshold_of_body(body);
                     let jumps = self.body_jumps(body);
                     let impact = Impact::of_contact(&force, &jumps, self.end(), threshold);
-                    let touches = |at: usize| {
-                        let connection = &self.assembly.connections[at];
-                        contacts::between(self.assembly, connection).contains(&body)
-                    };
-                    let impact = impact.beyond_ripples(&force, self.passage(touches), self.end());
-                    self.ended(impact, ForceOf::Body(body))
+                    self.ended(impact, &force, ForceOf::Body(body))
                 }
                 None => Impact::unloaded(self.end()),
             };
@@ -425,17 +418,6 @@ impl<'a> Solution<'a> {
     /// The mass of the body that a node belongs to \[kg\].
     pub fn body_mass(&self, node: usize) -> f64 {
         self.members().mass(self.assembly.nodes[node].body)
-    }
-
-    /// The longest passage of a wave through a segment \[s\] of those elements that are layers, or the contact of layers.
-    fn passage(&self, is_meant: impl Fn(usize) -> bool) -> f64 {
-        let connections = &self.assembly.connections;
-        let layered = connections.iter().enumerate().filter(|own| own.1.passage > 0.0);
-        let meant = layered.filter(|own| {
-            let contact = self.assembly.pad(own.0).and_then(|pad| pad.contact);
-            is_meant(own.0) || contact.is_some_and(&is_meant)
-        });
-        meant.map(|own| own.1.passage).fold(0.0, f64::max)
     }
 
     /// The force on a body with the sign with which what acts on it begins; `None` if nothing

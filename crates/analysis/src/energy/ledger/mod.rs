@@ -4,14 +4,11 @@ mod digested;
 mod leak;
 mod series;
 
-use std::{
-    collections::{BTreeMap, HashMap},
-    ops::Range,
-};
+use std::{collections::BTreeMap, ops::Range};
 
 use dashpot_dae::Signal;
 use dashpot_network::{
-    Assembly, NodeOutputs, PrimitiveOutputs,
+    Assembly, PrimitiveOutputs,
     elements::Law,
     phases::{Phase, PhaseLaw},
 };
@@ -149,15 +146,15 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     let window = (0.0, time);
     let mut balance = Balance::default();
     let (mut start, mut kinetic) = (0.0, 0.0);
-    let mut in_layers = InLayers::of(assembly);
-    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+    let mut of_nodes = Vec::new();
+    for (at, node) in assembly.nodes.iter().enumerate().filter(|own| own.1.mass > 0.0) {
         let Some(velocity) = node.velocity else { continue };
         let velocity = solution.glance(velocity);
         let energy = |v: f64| 0.5 * node.mass * v * v;
         let last = velocity.value(time);
         start += energy(velocity.value(0.0));
         kinetic += energy(last);
-        in_layers.add(node, energy(last));
+        of_nodes.push((at, energy(last)));
         balance.add_error(velocity.error.map(|error| node.mass * error * (last.abs() + error)));
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
@@ -211,7 +208,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         time,
         start,
         kinetic,
-        in_layers: in_layers.named(assembly),
+        in_layers: in_layers(assembly, &of_nodes),
         stored,
         dissipated,
         work_in,
@@ -220,28 +217,16 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     }
 }
 
-/// The kinetic energies \[J\] of the masses of layers, by element.
-struct InLayers {
-    /// The element of each body that is such a mass.
-    elements: HashMap<usize, usize>,
-    sums: BTreeMap<usize, f64>,
-}
-
-impl InLayers {
-    fn of(assembly: &Assembly) -> Self {
-        Self { elements: leak::within(assembly), sums: BTreeMap::new() }
-    }
-
-    fn add(&mut self, node: &NodeOutputs, energy: f64) {
-        if let Some(element) = self.elements.get(&node.body) {
-            *self.sums.entry(*element).or_default() += energy;
+/// What masses of layers have of the kinetic energies \[J\] of nodes, by element.
+fn in_layers(assembly: &Assembly, kinetic: &[(usize, f64)]) -> Vec<(String, f64)> {
+    let elements = leak::within(assembly);
+    let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+    for (node, energy) in kinetic {
+        if let Some(&element) = elements.get(&assembly.nodes[*node].body) {
+            *sums.entry(element).or_default() += energy;
         }
     }
-
-    fn named(self, assembly: &Assembly) -> Vec<(String, f64)> {
-        let name = |at: usize| assembly.connections[at].name.clone();
-        self.sums.into_iter().map(|(at, sum)| (name(at), sum)).collect()
-    }
+    sums.into_iter().map(|(at, sum)| (assembly.connections[at].name.clone(), sum)).collect()
 }
 
 /// The work \[J\] done on a part within the window, with what impacts in it lose.
