@@ -72,14 +72,15 @@ pub(crate) fn with_segments(
         let assembly = Arc::new(cut.network.compile(settings.duration)?);
         let own = SolveSettings { rtol: report.solver.rtol, estimate: false, ..settings.clone() };
         let other = solve_assembly(&assembly, &words(&cut.network), &own, observer)?;
-        let safety = safety(&cut);
+        told.get_or_insert((cut.stated, counts));
+        others.push((safety(&cut), other));
+    }
+    for (safety, other) in &others {
         let values = other.by_key();
         for (off, measure) in off.iter_mut().zip(&report.measures) {
             let opposite = values.get(measure.key.as_str()).and_then(|own| own.value);
-            off.widen(measure.value, opposite, safety);
+            off.widen(measure.value, opposite, *safety);
         }
-        told.get_or_insert((cut.stated, counts));
-        others.push(other);
     }
     report.solver.solves_for_error += others.len();
     let Some((stated, counts)) = told else { return Ok(report) };
@@ -115,20 +116,17 @@ fn let_go(
     report: &RunReport,
     steep: &[Steep],
     settings: &SolveSettings,
-    others: &[RunReport],
+    others: &[(f64, RunReport)],
 ) -> Result<Vec<f64>, RunError> {
+    if steep.is_empty() {
+        return Ok(Vec::new());
+    }
     let solution = report.solution();
     let impact = solution.scene_impact();
     let height = |own: &Steep| RIPPLE * (own.passage / (impact.end - impact.start)).sqrt();
     let level = steep.iter().map(height).fold(0.0, f64::max).min(HIGHEST);
-    if level <= 0.0 {
-        return Ok(Vec::new());
-    }
-    let make_others = &|| others.iter().map(RunReport::solution).collect();
+    let make_others = &|| others.iter().map(|own| own.1.solution()).collect();
     let ends = undecided_releases(&solution, make_others, level);
-    if ends.is_empty() {
-        return Ok(Vec::new());
-    }
     let earlier = report.solution().ending(ends);
     let selected = select(&report.assembly, &settings.measures, &settings.limits)?;
     let changes = selected.iter().zip(&report.measures).map(|(entry, own)| {
