@@ -59,7 +59,7 @@ pub(crate) fn with_segments(
     }
     let started = Instant::now();
     let steep = Steep::of(&report);
-    let parts = if steep.is_empty() { &PARTS[..1] } else { &PARTS };
+    let parts = if steep.is_empty() { &PARTS[..1] } else { &PARTS[..] };
     let mut off = vec![Off::default(); report.measures.len()];
     let mut told: Option<(f64, [usize; 2])> = None;
     let mut others = Vec::new();
@@ -125,8 +125,8 @@ fn let_go(
     let impact = solution.scene_impact();
     let height = |own: &Steep| RIPPLE * (own.passage / (impact.end - impact.start)).sqrt();
     let level = steep.iter().map(height).fold(0.0, f64::max).min(HIGHEST);
-    let make_others = &|| others.iter().map(|own| own.1.solution()).collect();
-    let ends = undecided_releases(&solution, make_others, level);
+    let make_others = || others.iter().map(|own| own.1.solution()).collect::<Vec<_>>();
+    let ends = undecided_releases(&solution, &make_others, level);
     let earlier = report.solution().ending(ends);
     let selected = select(&report.assembly, &settings.measures, &settings.limits)?;
     let changes = selected.iter().zip(&report.measures).map(|(entry, own)| {
