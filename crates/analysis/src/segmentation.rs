@@ -85,14 +85,20 @@ pub(crate) fn with_segments(
     report.solver.solves_for_error += others.len();
     let Some((stated, counts)) = told else { return Ok(report) };
     for (off, earlier) in off.iter_mut().zip(let_go(&report, &steep, settings, &others)?) {
-        off.error = off.error.max(earlier);
+        off.earlier = earlier;
     }
     let mut worst: Vec<(String, f64)> = Vec::new();
     for (off, measure) in off.iter().zip(&mut report.measures) {
         let least = steep.iter().map(|own| own.least(measure)).fold(0.0, f64::max);
         let Some(error) = &mut measure.error else { continue };
-        *error += off.error.max(least);
-        if off.error.max(least) > 0.0 {
+        // When it lets go is known to the width of a front, and does not hang on the segments otherwise.
+        let added = if !steep.is_empty() && measure.kind == ContactTime::KIND {
+            off.largest.max(off.earlier).max(least)
+        } else {
+            off.error.max(least) + off.earlier
+        };
+        *error += added;
+        if added > 0.0 {
             measure.excess = *error / (settings.accuracy.of(&measure.key) * measure.size);
         }
         let part = if off.difference > 0.0 { off.difference / measure.size } else { 0.0 };
@@ -147,8 +153,12 @@ fn safety(recut: &Recut) -> f64 {
 struct Off {
     /// The difference to the first of them.
     difference: f64,
+    /// The largest difference.
+    largest: f64,
     /// The error that all of them tell of.
     error: f64,
+    /// The difference that an earlier end of the impact makes.
+    earlier: f64,
 }
 
 impl Off {
@@ -161,6 +171,7 @@ impl Off {
         if self.error == 0.0 {
             self.difference = difference;
         }
+        self.largest = self.largest.max(difference);
         self.error = self.error.max(safety * difference);
     }
 }
