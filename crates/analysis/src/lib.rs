@@ -22,6 +22,7 @@ mod report;
 pub mod rheometer;
 mod run;
 mod scatter;
+mod segmentation;
 mod settings;
 pub mod similarity;
 mod solution;

@@ -1,24 +1,16 @@
-//! From a network to the report of a run, with what the segments of layers make of it.
-//!
-//! A pad of layers is cut into segments, and a method may solve these as exactly as it likes: the
-//! layers are not those segments. So the network is solved once more with half as many, and the
-//! measures are compared. What is smooth is right to the second order of the length of a segment: of
-//! the difference, a third is the error. A front, as wide as the cube root of the segments that it has
-//! passed, is right to the order of ⅓ only at worst, where the error is 3.9 times the difference.
+//! From a network to the report of a run.
 
 use std::{sync::Arc, time::Instant};
 
 use dashpot_dae::{Observer, Silent};
-use dashpot_network::{
-    Assembly, Network,
-    segments::{Recut, recut},
-};
+use dashpot_network::{Assembly, Network};
 
 use crate::{
-    RunError, RunReport, Segmentation, SolveSettings, Warning,
+    RunError, RunReport, SolveSettings,
     partial::reduced,
     plain,
     run::{solve_assembly, words},
+    segmentation::with_segments,
 };
 
 /// What can be solved.
@@ -90,7 +82,7 @@ impl Solve for Network {
 /// solution.
 ///
 /// The errors of measures include what was left out, and what the segments of layers make of them:
-/// the latter takes one further solution.
+/// the latter takes one further solution, or two where a front is as steep as the segments.
 ///
 /// # Errors
 ///
@@ -116,59 +108,5 @@ pub fn solve_partial(
         }
     };
     report.solver.wall_in_all = started.elapsed();
-    Ok(report)
-}
-
-/// What the error is taken as, in parts of the difference.
-const SAFETY: f64 = 4.0;
-
-/// The run with the errors of its measures widened by what the segments of its layers make of them:
-/// one further solution where there are any, and errors are wanted.
-///
-/// # Errors
-///
-/// As [`solve_assembly`].
-fn with_segments(
-    network: &Network,
-    mut report: RunReport,
-    settings: &SolveSettings,
-    observer: &mut dyn Observer,
-) -> Result<RunReport, RunError> {
-    if !settings.estimate {
-        return Ok(report);
-    }
-    let Some(Recut { network, segments, others, stated }) = recut(network) else {
-        return Ok(report);
-    };
-    let started = Instant::now();
-    let assembly = Arc::new(network.compile(settings.duration)?);
-    let own = SolveSettings { rtol: report.solver.rtol, estimate: false, ..settings.clone() };
-    let other = solve_assembly(&assembly, &words(&network), &own, observer)?;
-    let mut worst: Option<(f64, &str)> = None;
-    let recut = other.by_key();
-    for measure in &mut report.measures {
-        let opposite = recut.get(measure.key.as_str()).and_then(|own| own.value);
-        let off = match (measure.value, opposite) {
-            (Some(one), Some(other)) => (one - other).abs(),
-            (None, None) => continue,
-            _ => f64::INFINITY,
-        };
-        let Some(error) = &mut measure.error else { continue };
-        *error += SAFETY * off;
-        if off > 0.0 {
-            measure.excess = *error / (settings.accuracy.of(&measure.key) * measure.size);
-        }
-        let part = if off > 0.0 { off / measure.size } else { 0.0 };
-        if worst.is_none_or(|(known, _)| part > known) {
-            worst = Some((part, &measure.key));
-        }
-    }
-    if let Some((part, key)) = worst.filter(|(part, _)| *part > stated) {
-        let (parts, counts) = ([part, stated], [segments, others]);
-        report.warnings.push(Warning::Segments { measure: key.to_owned(), parts, counts });
-    }
-    report.solver.solves_for_error += 1;
-    report.solver.wall_for_error += started.elapsed();
-    report.segmentation = Some(Segmentation { segments, others });
     Ok(report)
 }

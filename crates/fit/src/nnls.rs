@@ -111,7 +111,11 @@ impl NonNegative {
     /// Moves to the least squares of the passive unknowns, and takes those out that would fall below zero on the
     /// way; false where they cannot be told apart.
     fn settle(&self, state: &mut State) -> bool {
-        while !state.passive.is_empty() {
+        // Each round takes one out at least, but for what rounding keeps.
+        for _ in 0..MOST_CHANGES * self.lengths.len() {
+            if state.passive.is_empty() {
+                break;
+            }
             let Some(wanted) = self.least_squares(&state.passive) else { return false };
             let fraction = state.passive.iter().zip(&wanted).filter(|own| *own.1 <= 0.0).map(
                 |(&at, wanted)| {
@@ -135,7 +139,7 @@ impl NonNegative {
             state.passive.retain(|at| values[*at] > 0.0);
         }
         state.values.fill(0.0);
-        true
+        state.passive.is_empty()
     }
 
     /// The least squares of some unknowns.

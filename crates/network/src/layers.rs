@@ -191,11 +191,7 @@ impl Layers {
         let mut counts: Vec<usize> =
             self.all.iter().map(|layer| usize::from(layer.mass() > 0.0)).collect();
         let omega = self.frequency(mass);
-        let transit = |layer: &Layer| {
-            let wave = omega.and_then(|omega| layer.wave(omega));
-            wave.map_or(0.0, |wave| wave.transit)
-        };
-        let transits: Vec<f64> = self.all.iter().map(transit).collect();
+        let transits = self.transits(omega);
         match self.resolution {
             Resolution::Segments(wanted) => {
                 let least: usize = counts.iter().sum();
@@ -231,6 +227,22 @@ impl Layers {
         }
         self.fit(&counts)?;
         Ok(counts)
+    }
+
+    /// Times \[s\] in which a wave of this angular frequency crosses each layer; 0 where none travels.
+    fn transits(&self, omega: Option<f64>) -> Vec<f64> {
+        let transit = |layer: &Layer| {
+            let wave = omega.and_then(|omega| layer.wave(omega));
+            wave.map_or(0.0, |wave| wave.transit)
+        };
+        self.all.iter().map(transit).collect()
+    }
+
+    /// The longest time \[s\] in which a wave crosses one of so many segments of each layer.
+    pub(crate) fn passage(&self, mass: Option<f64>, counts: &[usize]) -> f64 {
+        let transits = self.transits(self.frequency(mass));
+        let cut = transits.iter().zip(counts).filter(|own| *own.1 > 0);
+        cut.map(|(transit, &count)| transit / count as f64).fold(0.0, f64::max)
     }
 
     /// Refuses segments whose models take too much memory.

@@ -68,6 +68,8 @@ pub struct ConnectionOutputs {
     pub segments: Vec<SegmentOutputs>,
     /// Whether it is made of layers.
     pub has_layers: bool,
+    /// Time \[s\] in which a wave crosses the thickest segment of the layers; 0 where none travels.
+    pub passage: f64,
 }
 
 /// Outputs of a part of a pad in which force and strain are the same all over.

@@ -119,13 +119,15 @@ impl fmt::Display for NetworkWarning {
             Self::NonlinearFront(front) => write!(
                 f,
                 "{front}, which is not linear: the front of the wave is as steep as its segments, \
-                 and forces depend on their number; compare with other numbers"
+                 and forces, times and what follows from them depend on their number; compare with \
+                 other numbers"
             ),
             Self::SteepFront { front, excess } => write!(
                 f,
                 "{front}, and the front of the wave is as steep as its segments: with few of them \
-                 its forces are too low, with many up to {:.0} % too high, whatever their stated \
-                 errors; a spring between the two blunts the front",
+                 its peaks of force, stress and acceleration are too low, with many up to {:.0} % too \
+                 high, and it lets go too early or too late by the time that the front is spread over; \
+                 the errors stated include that; a spring between the two blunts the front",
                 (100.0 * excess).ceil()
             ),
             Self::LoadJumps { load, element } => write!(

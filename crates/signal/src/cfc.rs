@@ -11,10 +11,10 @@ use thiserror::Error;
 const DESIGN: f64 = 2.0775;
 /// The standards want a sampling rate of so many times the class.
 const LEAST_RATE: f64 = 10.0;
-/// So many samples may stand before a record for a filter, and behind it.
-const MOST_PADDING: f64 = 1e6;
 /// After so many periods of the design frequency the answer to an impulse has died out to 10⁻¹².
 const MEMORY: f64 = 7.0;
+/// Samples that it remembers at most.
+const MOST_REMEMBERED: f64 = 1e7;
 
 /// A channel frequency class: a two-pole Butterworth filter that runs forward and backward, so that it has four poles
 /// and no phase. Its `ω_d = 2π · 2.0775 · CFC`, warped for the sampling interval `T` as `ω_a = tan(ω_d T/2)`.
@@ -80,15 +80,18 @@ pub enum CfcFault {
     /// A class that is no positive number.
     #[error("a channel frequency class is a positive number of hertz, such as 180")]
     NoClass,
-    /// A class that remembers more samples than are kept.
-    #[error("CFC {class} reaches over {reach:.3e} samples at this rate, and at most 1e6 are kept")]
-    TooLow { class: f64, reach: f64 },
     /// A rate at which the design frequency does not exist.
     #[error(
         "CFC {class} has its design frequency at {design:.0} Hz, and {rate:.0} Hz sample no more than {:.0} Hz",
         0.5 * .rate
     )]
     TooSlow { class: f64, design: f64, rate: f64 },
+    /// A rate at which the filter remembers more samples than there is room for.
+    #[error(
+        "CFC {class} has its design frequency at {design:.0} Hz, and remembers {samples:.1e} samples of {rate:.1e} Hz; up \
+         to {MOST_REMEMBERED:.0e} are kept: look at the unit of the times"
+    )]
+    TooFast { class: f64, design: f64, rate: f64, samples: f64 },
 }
 
 /// The coefficients of one pass: `y = a (x + 2 x₁ + x₂) + b1 y₁ + b2 y₂`.
@@ -145,22 +148,33 @@ impl Cfc {
         1.0 / (1.0 + ratio.powi(4))
     }
 
+    /// For how many samples at a rate \[Hz\] the filter remembers a value.
+    ///
+    /// # Errors
+    ///
+    /// [`CfcFault::TooSlow`] where half of the rate is not above the design frequency, [`CfcFault::TooFast`] where
+    /// there are more than 10⁷.
+    pub(crate) fn memory(self, rate: f64) -> Result<f64, CfcFault> {
+        let (class, design) = (self.class, self.design_frequency());
+        let samples = MEMORY * rate / design;
+        if 2.0 * design >= rate {
+            Err(CfcFault::TooSlow { class, design, rate })
+        } else if samples <= MOST_REMEMBERED {
+            Ok(samples)
+        } else {
+            Err(CfcFault::TooFast { class, design, rate, samples })
+        }
+    }
+
     /// Filters samples at even steps.
     ///
     /// # Errors
     ///
     /// [`CfcFault::TooSlow`] where half of the sampling rate \[Hz\] is not above the design frequency, and
-    /// [`CfcFault::TooLow`] where what it takes of the past is longer than 10⁶ samples.
+    /// [`CfcFault::TooFast`] where the filter remembers more than 10⁷ samples.
     pub fn filter(self, values: &[f64], rate: f64, padding: Padding) -> Result<Vec<f64>, CfcFault> {
-        let design = self.design_frequency();
-        if 2.0 * design >= rate {
-            return Err(CfcFault::TooSlow { class: self.class, design, rate });
-        }
+        let wanted = self.memory(rate)?;
         let pass = self.pass(rate);
-        let wanted = MEMORY * rate / design;
-        if wanted > MOST_PADDING && padding != Padding::None {
-            return Err(CfcFault::TooLow { class: self.class, reach: wanted });
-        }
         let mut length = 0;
         while (length as f64) < wanted && padding != Padding::None {
             length += 1;

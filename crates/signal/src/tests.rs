@@ -185,6 +185,8 @@ fn gains_are_those_of_the_standard() {
     assert!((decibels(1000.0, 10e3) + 0.28).abs() < 0.01);
     assert!(cfc.gain(10e3, 20e3) <= 0.0);
     assert!(matches!(cfc.filter(&[0.0; 9], 4000.0, Padding::Odd), Err(CfcFault::TooSlow { .. })));
+    // Times in the wrong unit ask for an endless run-in.
+    assert!(matches!(cfc.filter(&[0.0; 9], 1e13, Padding::Odd), Err(CfcFault::TooFast { .. })));
     assert_eq!(Cfc::new(0.0), Err(CfcFault::NoClass));
 }
 

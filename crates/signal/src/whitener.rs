@@ -24,8 +24,9 @@ impl Whitener {
     ///
     /// # Errors
     ///
-    /// [`CfcFault::TooSlow`] where the filter does not exist at that rate.
+    /// [`CfcFault::TooSlow`] and [`CfcFault::TooFast`] where the filter does not exist at that rate.
     pub fn new(count: usize, cfc: Cfc, rate: f64, padding: Padding) -> Result<Self, CfcFault> {
+        cfc.memory(rate)?;
         let mut stride = 2;
         while cfc.gain(0.5 * rate / stride as f64, rate) < PASSED {
             stride += 1;

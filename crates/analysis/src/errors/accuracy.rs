@@ -17,8 +17,9 @@ const RANK: f64 = 0.9;
 /// Part of itself that no measure of a stepping method is known better than: balances are solved no better, and
 /// where a kink ends the steps of all solutions alike they have that in common.
 const SOLVED: f64 = 1e-12;
-/// Part of the energy lost that no measure is known better than, energies apart.
-const OF_ENERGY: f64 = 0.1;
+/// The power of the energy that forces, speeds and lengths go with: no measure is known better than the energy lost
+/// makes of it.
+const OF_ENERGY: f64 = 0.5;
 
 /// What error bars are taken from.
 #[derive(Debug)]
@@ -27,7 +28,7 @@ pub(crate) struct Evidence<'a> {
     pub(crate) others: Vec<(f64, &'a [Reading])>,
     /// Tolerance and readings of the finest one, which is reported.
     pub(crate) finest: (f64, &'a [Reading]),
-    /// What no bar falls short of, by measure: see [`of_energy`].
+    /// What energy that is lost makes of each measure: see [`of_energy`].
     pub(crate) least: Vec<f64>,
     /// The power of the tolerance with which the method's errors fall.
     pub(crate) fall: f64,
@@ -41,7 +42,7 @@ impl Evidence<'_> {
     ///    of Q. The bar is 5.4 times the root of the sum of their squares.
     /// 2. A fifth of what nine in ten bars of the same run do not exceed, in parts of the measures'
     ///    sizes, is added to the squares: where one measure agrees by chance, others do not.
-    /// 3. No bar is smaller than the loss of energy allows, and roundings come on top.
+    /// 3. What the loss of energy makes of the measure is added to the squares, and roundings come on top.
     ///
     /// Infinite where only some of the solutions have a value, or where the run might end before there
     /// is one, by the bar or by 5.4 times the largest difference; `None` where none has. A value that
@@ -53,7 +54,8 @@ impl Evidence<'_> {
         let own: Vec<Option<f64>> = (0..finest.len()).map(|at| self.of_differences(at)).collect();
         let shared = self.shared(&own);
         let bar = |((reading, own), least): ((&Reading, Option<f64>), &f64)| {
-            let whole = |own: f64| own.hypot(shared * reading.size).max(*least) + rounding(reading);
+            let whole =
+                |own: f64| own.hypot(shared * reading.size).hypot(*least) + rounding(reading);
             let may_be_none = |bar: f64| reading.room.is_some_and(|room| bar > room);
             own.map(whole).map(|bar| if may_be_none(bar) { f64::INFINITY } else { bar })
         };
@@ -100,11 +102,13 @@ impl Evidence<'_> {
 }
 
 /// How well a measure can be known at best where a solution loses the part `closure` of the energy
-/// `turned_over` \[J\]: an energy to what is lost, anything else to a tenth of that part. It tells of
-/// what all solutions miss alike, because no tolerance but the room between their steps made them so.
+/// `turned_over` \[J\]: an energy to what is lost, an amplitude to half of that part, and an index, the power 2.5 of
+/// one, to 2.5 times as much. It tells of what all solutions miss alike, because no tolerance but the room between their
+/// steps made them so.
 pub(crate) fn of_energy(reading: &Reading, unit: &str, (closure, turned_over): (f64, f64)) -> f64 {
     let lost = closure.abs();
-    let of_size = (OF_ENERGY * lost).max(SOLVED) * reading.size;
+    let power = if unit == "s" { INJURY } else { 1.0 };
+    let of_size = (power * OF_ENERGY * lost).max(SOLVED) * reading.size;
     if unit == "J" { of_size.max(lost * turned_over) } else { of_size }
 }
 
@@ -299,7 +303,8 @@ mod tests {
     #[test]
     fn energy_that_is_lost_widens_the_bar() {
         let force = reading(Some(4.0));
-        assert!((of_energy(&force, "N", (-0.01, 50.0)) - 0.004).abs() < 1e-12);
+        assert!((of_energy(&force, "N", (-0.01, 50.0)) - 0.02).abs() < 1e-12);
+        assert!((of_energy(&force, "s", (-0.01, 50.0)) - 0.05).abs() < 1e-12);
         assert!((of_energy(&force, "J", (-0.01, 50.0)) - 0.5).abs() < 1e-12);
         let bar = bar_of([(); 4].map(|()| force.clone()), 0.5).unwrap();
         assert!((bar - 0.5).abs() < 1e-12);

@@ -114,6 +114,7 @@ impl Balance {
             time: end,
             start: self.start,
             kinetic: self.kinetic,
+            in_layers: Vec::new(),
             turned_over: supplied.max(kept).max(most),
             stored,
             dissipated,

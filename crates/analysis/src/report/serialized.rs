@@ -140,6 +140,7 @@ serialized!(Ledger, own => {
     "work-in" => own.total_work_in(),
     "drives" => pairs(&own.work_in),
     "kinetic" => own.kinetic,
+    "kinetic-in-layers" => pairs(&own.in_layers),
     "stored" => pairs(&own.stored),
     "dissipated" => pairs(&own.dissipated),
     "closure" => finite(own.closure()),

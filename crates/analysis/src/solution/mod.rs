@@ -265,7 +265,7 @@ impl<'a> Solution<'a> {
                         (self.element_jumps(element), self.threshold_of(connection));
                     let impact =
                         Impact::of_contact(self.signal(force), jumps, self.end(), threshold);
-                    self.ended(impact, ForceOf::Element(element))
+                    self.ended(impact, self.signal(force), ForceOf::Element(element))
                 }
                 _ if connection.is_rigid => self.node_impact(connection.between[0].index()),
                 _ => self.scene_impact(),
@@ -293,7 +293,7 @@ impl<'a> Solution<'a> {
                     let threshold = self.threshold_of_body(body);
                     let jumps = self.body_jumps(body);
                     let impact = Impact::of_contact(&force, &jumps, self.end(), threshold);
-                    self.ended(impact, ForceOf::Body(body))
+                    self.ended(impact, &force, ForceOf::Body(body))
                 }
                 None => Impact::unloaded(self.end()),
             };

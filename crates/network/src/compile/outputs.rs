@@ -185,6 +185,7 @@ impl<'s> Outputs<'s> {
                 primitives: first..self.primitives.len(),
                 segments: Vec::new(),
                 has_layers: connection.layers.is_some(),
+                passage: connection.passage,
             };
             self.add_segments(parts, connection, (shapes, &forces, &listed), &mut outputs);
             self.connections.push(outputs);

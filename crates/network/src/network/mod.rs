@@ -141,6 +141,9 @@ pub struct Connection {
     /// The pieces of layers that each branch of the model stands for, or of the model itself where
     /// nothing hangs between its branches; none before the layers are resolved.
     pub(crate) pieces: Vec<Vec<Piece>>,
+    /// Time \[s\] in which a wave crosses the thickest segment of the layers; 0 before they are resolved, and where no
+    /// wave travels.
+    pub(crate) passage: f64,
 }
 
 /// A branch of the model of a connection that is a pad with a size of its own.
@@ -286,6 +289,7 @@ impl Network {
             layers: None,
             through: Vec::new(),
             pieces: Vec::new(),
+            passage: 0.0,
         });
         &mut self.connections[at]
     }

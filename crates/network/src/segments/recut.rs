@@ -25,9 +25,15 @@ impl Recut {
     pub const EXPECTED: f64 = 0.01;
 }
 
-/// The network with its pads cut into half as many segments, or where that would leave a layer
+/// The network with its pads cut into this part of their segments, below 1, or where that would leave a layer
 /// without any into twice as many; `None` where no pad is cut, or can be.
-pub fn recut(network: &Network) -> Option<Recut> {
+pub fn recut(network: &Network, part: f64) -> Option<Recut> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a part of a small count"
+    )]
+    let fewer = |own: usize| (part * own as f64) as usize;
     let mut found = Vec::new();
     for (at, connection) in network.connections.iter().enumerate() {
         let Some(layers) = &connection.layers else { continue };
@@ -41,10 +47,10 @@ pub fn recut(network: &Network) -> Option<Recut> {
     if found.is_empty() {
         return None;
     }
-    let halves = found.iter().all(|(_, own, least)| own / 2 >= *least);
+    let is_coarser = found.iter().all(|(_, own, least)| fewer(*own) >= *least);
     let mut recut = Recut { network: network.clone(), segments: 0, others: 0, stated: 0.0 };
     for (at, own, _) in found {
-        let other = if halves { own / 2 } else { (2 * own).min(MOST_SEGMENTS) };
+        let other = if is_coarser { fewer(own) } else { (2 * own).min(MOST_SEGMENTS) };
         recut.segments += own;
         recut.others += other;
         if let Some(layers) = &mut recut.network.connections[at].layers {

@@ -28,6 +28,7 @@ pub(crate) fn resolve(network: &mut Network) -> Result<(), NetworkError> {
         })?;
         let Cut { masses, models, pieces } = cut(&layers, &counts);
         network.connections[at].pieces = pieces;
+        network.connections[at].passage = layers.passage(struck, &counts);
         if masses.is_empty() {
             continue;
         }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use dashpot_dae::{Digest, Product};
 use dashpot_network::Assembly;
 
-use super::{Ledger, STEPS, does_work, total};
+use super::{Ledger, STEPS, does_work, in_layers, total};
 use crate::energy::roles::EnergyRole;
 
 /// The energy balance at the end of a run of `end` \[s\], of which `digest` tells the values at both
@@ -17,11 +17,13 @@ pub(super) fn ledger(assembly: &Assembly, digest: &Digest, end: f64) -> Ledger {
     let mut products = digest.products.iter().copied();
     let mut next = || products.next().unwrap_or(Product { total: f64::NAN, largest: f64::NAN });
     let (mut start, mut kinetic) = (0.0, 0.0);
-    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+    let mut of_nodes = Vec::new();
+    for (at, node) in assembly.nodes.iter().enumerate().filter(|own| own.1.mass > 0.0) {
         let Some(velocity) = node.velocity else { continue };
         let [first, last] = digest.ends(system, velocity).map(|v| 0.5 * node.mass * v * v);
         start += first;
         kinetic += last;
+        of_nodes.push((at, last));
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
     for primitive in &assembly.primitives {
@@ -53,7 +55,9 @@ pub(super) fn ledger(assembly: &Assembly, digest: &Digest, end: f64) -> Ledger {
     let supplied = start + work_in.iter().map(|entry| entry.1.max(0.0)).sum::<f64>();
     let kept = kinetic + total(&stored) + total(&dissipated);
     let turned_over = supplied.max(kept).max(start + most);
-    Ledger { time: end, start, kinetic, stored, dissipated, work_in, turned_over, error: None }
+    let in_layers = in_layers(assembly, &of_nodes);
+    let error = None;
+    Ledger { time: end, start, kinetic, in_layers, stored, dissipated, work_in, turned_over, error }
 }
 
 /// The energy \[J\] that springs take up in no time.

@@ -4,7 +4,7 @@ mod digested;
 mod leak;
 mod series;
 
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
 use dashpot_dae::Signal;
 use dashpot_network::{
@@ -31,6 +31,8 @@ pub struct Ledger {
     pub start: f64,
     /// Kinetic energy of all masses \[J\].
     pub kinetic: f64,
+    /// What of it the masses of layers have \[J\], by element.
+    pub in_layers: Vec<(String, f64)>,
     /// Energy stored in each spring \[J\], by path.
     pub stored: Vec<(String, f64)>,
     /// Energy dissipated in each dashpot \[J\], by path.
@@ -144,13 +146,15 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
     let window = (0.0, time);
     let mut balance = Balance::default();
     let (mut start, mut kinetic) = (0.0, 0.0);
-    for node in assembly.nodes.iter().filter(|node| node.mass > 0.0) {
+    let mut of_nodes = Vec::new();
+    for (at, node) in assembly.nodes.iter().enumerate().filter(|own| own.1.mass > 0.0) {
         let Some(velocity) = node.velocity else { continue };
         let velocity = solution.glance(velocity);
         let energy = |v: f64| 0.5 * node.mass * v * v;
         let last = velocity.value(time);
         start += energy(velocity.value(0.0));
         kinetic += energy(last);
+        of_nodes.push((at, energy(last)));
         balance.add_error(velocity.error.map(|error| node.mass * error * (last.abs() + error)));
     }
     let (mut stored, mut dissipated) = (Vec::new(), Vec::new());
@@ -204,12 +208,25 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         time,
         start,
         kinetic,
+        in_layers: in_layers(assembly, &of_nodes),
         stored,
         dissipated,
         work_in,
         turned_over,
         error: balance.error(),
     }
+}
+
+/// What masses of layers have of the kinetic energies \[J\] of nodes, by element.
+fn in_layers(assembly: &Assembly, kinetic: &[(usize, f64)]) -> Vec<(String, f64)> {
+    let elements = leak::within(assembly);
+    let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+    for (node, energy) in kinetic {
+        if let Some(&element) = elements.get(&assembly.nodes[*node].body) {
+            *sums.entry(element).or_default() += energy;
+        }
+    }
+    sums.into_iter().map(|(at, sum)| (assembly.connections[at].name.clone(), sum)).collect()
 }
 
 /// The work \[J\] done on a part within the window, with what impacts in it lose.

@@ -34,6 +34,9 @@ pub enum Contact {
 /// is unloaded. Bounces of the face on what strikes it belong to it as long as the padding stays
 /// pressed between them: its force does not fall to what it bore before, or to a hundredth of the most
 /// that it has borne since.
+///
+/// Layers with mass that are struck directly let go of a body for moments in the ripples of their segments: those belong to
+/// the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impact {
     /// When it begins \[s\].
@@ -136,6 +139,47 @@ impl Impact {
         }
     }
 
+    /// The impact with the pushes that follow its end so soon that segments of layers do not tell them apart, where
+    /// a wave crosses one of them in `passage` \[s\].
+    ///
+    /// A front is spread over the time [`front`] by then, and the force swings about its true course for as long: a
+    /// chain of segments lets go of what strikes it in the swing, and meets it again.
+    pub(crate) fn beyond_ripples(self, force: &Signal, passage: f64, run_end: f64) -> Self {
+        let mut impact = self;
+        let most = if passage > 0.0 { MOST_RIPPLES } else { 0 };
+        for _ in 0..most {
+            if !impact.has_ended() {
+                break;
+            }
+            let again = if impact.contact == Contact::Parted {
+                let next = pushes(force).into_iter().find(|own| own.start >= impact.end);
+                next.map(|own| own.start)
+            } else {
+                let rise = force.first_crossing(0.0, (impact.end, run_end), Some(true));
+                rise.map(|own| own.time)
+            };
+            let until = impact.end + front(passage, impact.end - impact.start);
+            let Some(start) = again.filter(|again| *again <= until) else { break };
+            impact =
+                Self { start: impact.start, ..Self::again(force, start, run_end, impact.contact) };
+        }
+        impact
+    }
+
+    /// The push that begins at `start` \[s\] and ends as this contact does.
+    fn again(force: &Signal, start: f64, run_end: f64, contact: Contact) -> Self {
+        let run = Self { start, end: run_end, end_error: Some(0.0), contact: Contact::Lasting };
+        if contact == Contact::Parted {
+            return Self::of_push(force, run, NO_PULL);
+        }
+        let Some(fall) = force.first_crossing(0.0, (start, run_end), Some(false)) else {
+            return run;
+        };
+        let rounding = 4.0 * f64::EPSILON * fall.time;
+        let shift = |error: f64| (error / fall.slope.abs()).min(run_end) + rounding;
+        Self { end: fall.time, end_error: force.error.map(shift), contact, ..run }
+    }
+
     /// Whether it takes place and ends before the run does, or with it.
     pub fn has_ended(self) -> bool {
         matches!(self.contact, Contact::Released | Contact::Parted)
@@ -208,6 +252,15 @@ impl Impact {
             },
         }
     }
+}
+
+/// So many pushes are joined at most.
+const MOST_RIPPLES: usize = 1000;
+
+/// The time \[s\] over which a chain of segments, each of which a wave crosses in `passage` \[s\], spreads a front
+/// that has travelled for `time` \[s\]: `Δt^⅔ t^⅓`.
+pub(crate) fn front(passage: f64, time: f64) -> f64 {
+    (passage * passage * time).cbrt()
 }
 
 /// Part of its largest push that a force may pull with before, as a pad does that was left unloaded

@@ -134,10 +134,10 @@ pub enum Warning {
     Unasked,
     /// The segments of layers make more of a measure than is expected.
     Segments {
-        /// The measure.
-        measure: String,
-        /// By what part of its size it differs, and what is expected.
-        parts: [f64; 2],
+        /// The measures, and by what part of its size each differs, the most first.
+        measures: Vec<(String, f64)>,
+        /// The part that is expected.
+        stated: f64,
         /// Segments, and those that they are compared with.
         counts: [usize; 2],
     },
@@ -278,7 +278,7 @@ impl Warning {
             }
             Self::HeldTable(own) => vec![&own.name],
             Self::Network(own) => own.names(),
-            Self::Segments { measure, .. } => vec![measure],
+            Self::Segments { measures, .. } => measures.iter().map(|own| own.0.as_str()).collect(),
         }
     }
 

@@ -239,13 +239,18 @@ impl Warning {
                 write!(f, "{}; {}", table.message(show), table.help())
             }
             Self::Network(own) => write!(f, "{own}"),
-            Self::Segments { measure, parts: [part, stated], counts: [segments, others] } => {
+            Self::Segments { measures, stated, counts: [segments, others] } => {
+                let named = measures.iter().take(NAMED);
+                let named = named.map(|(key, part)| format!("`{key}` by {}", percent(*part)));
+                let more = match measures.len().saturating_sub(NAMED) {
+                    0 => String::new(),
+                    more => format!(" and {more} more"),
+                };
                 write!(
                     f,
-                    "`{measure}` differs by {} with {others} segments of layers instead of {segments}, \
-                 more than the {} that is expected of them: cut them finer, by `segments` or \
-                 `accuracy`",
-                    percent(*part),
+                    "{others} segments of layers instead of {segments} change {}{more}, more than the \
+                     {} that is expected of them: cut them finer, by `segments` or `accuracy`",
+                    named.collect::<Vec<_>>().join(", "),
                     percent(*stated)
                 )
             }

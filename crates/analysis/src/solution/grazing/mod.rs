@@ -5,7 +5,10 @@ use std::{borrow::Cow, cell::OnceCell};
 use dashpot_dae::Signal;
 
 use super::Solution;
-use crate::impact::interval::{Impact, NO_PULL, first_pull};
+use crate::impact::{
+    contacts::between,
+    interval::{Impact, NO_PULL, first_pull},
+};
 
 /// How much larger one force may be than another that is the same.
 const SAME: f64 = 1.5;
@@ -97,10 +100,28 @@ impl Solution<'_> {
         Self { ends, ..self }
     }
 
-    /// An impact with the end that it has been given.
-    pub(super) fn ended(&self, impact: Impact, force_of: ForceOf) -> Impact {
-        let given = self.ends.iter().find(|(own, _)| *own == force_of);
-        given.map_or(impact, |&(_, time)| impact.ending(time))
+    /// An impact with the end that it has been given, or with what follows it in the ripples of segments.
+    pub(super) fn ended(&self, impact: Impact, force: &Signal, force_of: ForceOf) -> Impact {
+        match self.ends.iter().find(|(own, _)| *own == force_of) {
+            Some(&(_, time)) => impact.ending(time),
+            None => impact.beyond_ripples(force, self.passage(force_of), self.end()),
+        }
+    }
+
+    /// The longest passage of a wave through a segment \[s\] of the layers that are struck there, themselves or through
+    /// their contact.
+    fn passage(&self, force_of: ForceOf) -> f64 {
+        let assembly = self.assembly;
+        let layered = assembly.connections.iter().enumerate().filter(|own| own.1.passage > 0.0);
+        let is_there = |at: usize| match force_of {
+            ForceOf::Element(element) => at == element,
+            ForceOf::Body(body) => between(assembly, &assembly.connections[at]).contains(&body),
+        };
+        let struck = layered.filter(|&(at, _)| {
+            let contact = assembly.pad(at).and_then(|pad| pad.contact);
+            is_there(at) || contact.is_some_and(is_there)
+        });
+        struck.map(|own| own.1.passage).fold(0.0, f64::max)
     }
 
     /// How deep each contact force first pulls, in parts of its largest magnitude: those of the

@@ -76,6 +76,12 @@ pub(super) fn energy_table(run: &RunReport) -> Table {
             rows.push([label].into_iter().chain(texts).collect());
         }
     };
+    let in_layers = |at: usize, name: &str| {
+        ledgers[at].1.in_layers.iter().find(|own| own.0 == name).map_or(0.0, |own| own.1)
+    };
+    for (name, _) in &run.energy.in_layers {
+        line(format!("of it in {name}"), &|at| in_layers(at, name));
+    }
     for &element in &shown {
         let name = &run.assembly.connections[element].name;
         line(format!("stored in {name}"), &|at| stored(at, element));

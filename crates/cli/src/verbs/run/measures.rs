@@ -290,6 +290,9 @@ pub(super) fn notes(answer: &Answer) -> Vec<String> {
 /// What is smaller than this part of its size is what rounding leaves of zero.
 const ROUNDING: f64 = 1e-12;
 
+/// Beside its size, a value below this part of it may be zero.
+const SMALL: f64 = 0.1;
+
 /// The sizes that the measures of some runs have, by unit; what vanishes beside them is zero.
 pub(super) struct Zeros {
     /// Each SI unit with the largest value that is measured in it.
@@ -333,7 +336,11 @@ impl Zeros {
             _ => 0.0,
         };
         let tolerance = if measure.error.is_none() { self.tolerance } else { 0.0 };
-        let rounding = tolerance.max(ROUNDING) * measure.size.max(of_unit);
+        let size = measure.size.max(of_unit);
+        let rounding = tolerance.max(ROUNDING) * size;
+        // What is as large as anything of its kind is not zero because nothing is known of it.
+        let error =
+            if measure.value.is_some_and(|own| own.abs() < SMALL * size) { error } else { 0.0 };
         measure.value.is_some_and(|value| value.abs() <= error.max(rounding))
     }
 

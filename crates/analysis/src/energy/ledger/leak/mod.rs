@@ -4,6 +4,7 @@ mod parts;
 
 use std::fmt;
 
+pub(super) use parts::within;
 use parts::{Parts, count};
 
 use super::ledger;

@@ -277,10 +277,10 @@ fn owners(assembly: &Assembly) -> HashMap<&str, usize> {
 }
 
 /// The bodies of the masses within pads, by the element that they belong to: no element ends there.
-fn within(assembly: &Assembly) -> HashMap<usize, usize> {
+pub(in crate::energy::ledger) fn within(assembly: &Assembly) -> HashMap<usize, usize> {
     let layered = assembly.connections.iter().enumerate().filter(|(_, own)| own.has_layers);
     let layered: HashMap<&str, usize> = layered.map(|(at, own)| (own.name.as_str(), at)).collect();
-    let nodes = assembly.nodes.iter();
+    let nodes = assembly.nodes.iter().filter(|_| !layered.is_empty());
     nodes
         .filter_map(|node| {
             let (pad, number) = node.name.rsplit_once('.')?;
