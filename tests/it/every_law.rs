@@ -8,7 +8,7 @@ use dashpot::{
     network::{
         Element,
         elements::{ELEMENTS, Foundation, Indenter, Shape},
-        parameters::{Described as _, Dimension, Kind as _},
+        parameters::Dimension,
     },
     scene::{ReadOptions, read, write_kind},
 };
@@ -29,9 +29,9 @@ const EFFECTS: [(&str, &str); 7] = [
 
 /// Shapes of 80 mm.
 fn indenters() -> [(&'static str, Indenter); 4] {
+    use Shape::{Cylinder, Dome, Flat, Sphere};
     let of = |shape: Shape| {
         let has = |shapes: &[Shape], value: f64| shapes.contains(&shape).then_some(value);
-        use Shape::{Cylinder, Dome, Flat, Sphere};
         Indenter {
             shape,
             radius: has(&[Sphere, Dome, Cylinder], 0.06),

@@ -1,6 +1,6 @@
 //! What a new user of `fit` trips over first: each is refused, or told, with what to write in its place.
 
-use std::fs;
+use std::{fmt::Write as _, fs};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -117,7 +117,7 @@ fn a_zero_that_rows_before_the_impact_contradict_is_told() {
         let time = f64::from(at - 40) / 20e3;
         let inside = (0.0..=std::f64::consts::PI).contains(&(omega * time));
         let value = if inside { 2.0 * omega * (omega * time).sin() } else { 0.0 };
-        rows += &format!("{time:.6},{value:.4}\n");
+        _ = writeln!(rows, "{time:.6},{value:.4}");
     }
     fs::write(folder.0.path().join("other.csv"), rows).unwrap();
     let range = ["--vary", "K=5..5000 kN/m"];

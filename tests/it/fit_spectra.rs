@@ -34,13 +34,13 @@ impl Folder {
     }
 
     /// Exit code and all words of a fit.
-    fn told(&self, to: &str, rest: &[&str]) -> (i32, String) {
+    fn told(to: &str, rest: &[&str]) -> (i32, String) {
         let found = run(&[&["fit", "--to", to], rest].concat());
         let text = out(&found) + &err(&found);
         (code(&found), text.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    fn fitted(&self, to: &str, rest: &[&str]) -> Value {
+    fn fitted(to: &str, rest: &[&str]) -> Value {
         json(&[&["fit", "--to", to, "--json"], rest].concat())
     }
 }
@@ -62,7 +62,7 @@ fn late(too_high: f64) -> String {
 fn a_first_row_that_is_off_makes_no_branch_and_is_reported() {
     let folder = Folder::new();
     let to = format!("{}:G=gel", folder.with("late.csv", &late(0.05)));
-    let own = folder.fitted(&to, &[]);
+    let own = Folder::fitted(&to, &[]);
     let branches = own["branches"].as_array().unwrap();
     assert_eq!(branches.len(), 2, "{own}");
     for (branch, (time, strength)) in branches.iter().zip([(0.05, 150e3), (0.8, 100e3)]) {
@@ -73,19 +73,19 @@ fn a_first_row_that_is_off_makes_no_branch_and_is_reported() {
     let outliers = own["tests"][0]["outliers"].as_array().unwrap();
     assert!(outliers.len() == 1 && outliers[0]["line"] == 2, "{own}");
     assert!((number(&outliers[0]["off"]) - 0.05).abs() < 0.01, "{own}");
-    let (status, words) = folder.told(&to, &[]);
+    let (status, words) = Folder::told(&to, &[]);
     assert!(status == 0 && words.starts_with("! "), "{words}");
     assert!(words.contains("line 2 is ") && words.contains("% above"), "{words}");
     // Counted with the others, it is a row of which no branch may make more than e times what it shows.
-    let own = folder.fitted(&to, &["--robust", "off"]);
+    let own = Folder::fitted(&to, &["--robust", "off"]);
     let all = own["branches"].as_array().unwrap().iter();
     assert!(all.clone().all(|own| number(&own["time"]) > 13.8e-3), "{own}");
     assert!(all.map(|own| number(&own["strength"])).sum::<f64>() < 400e3, "{own}");
-    let (_, words) = folder.told(&to, &["--robust", "off"]);
+    let (_, words) = Folder::told(&to, &["--robust", "off"]);
     assert!(!words.contains("within 1.0 % of every row"), "{words}");
     // Without an outlier nothing is left out, and every row is met.
     let to = format!("{}:G=gel", folder.with("good.csv", &late(0.0)));
-    let (_, words) = folder.told(&to, &[]);
+    let (_, words) = Folder::told(&to, &[]);
     assert!(words.contains("within 1.0 % of every row") && !words.contains("line 2 is"), "{words}");
 }
 
@@ -100,16 +100,16 @@ fn a_gel_is_a_solid_where_that_is_known() {
         writeln!(rows, "{t:.6},{modulus:.6}").unwrap();
     }
     let to = format!("{}:G=gel", folder.with("gel.csv", &rows));
-    let own = folder.fitted(&to, &[]);
+    let own = Folder::fitted(&to, &[]);
     let equilibrium = &own["parameters"]["equilibrium"];
     assert!(number(&equilibrium["low"]) < 1e3 && equilibrium["identified"] == false, "{own}");
     assert_eq!(own["tests"][0]["outliers"].as_array().unwrap().len(), 0, "{own}");
-    let own = folder.fitted(&to, &["--solid"]);
+    let own = Folder::fitted(&to, &["--solid"]);
     let branches = own["branches"].as_array().unwrap();
     assert!(number(&own["spring"]) > 30e3, "{own}");
     assert!(branches.iter().all(|own| number(&own["time"]) <= 60.0 * (1.0 + 1e-9)), "{own}");
     let written = folder.0.path().join("gel.toml");
-    let (status, words) = folder.told(&to, &["--solid", "--out", text(&written)]);
+    let (status, words) = Folder::told(&to, &["--solid", "--out", text(&written)]);
     assert_eq!(status, 0, "{words}");
     let tested = run(&["rheometer", &format!("{}:gel", text(&written)), "--test", "relaxation"]);
     assert!(out(&tested).contains("a solid"), "{}", out(&tested));
@@ -120,9 +120,9 @@ fn a_gel_is_a_solid_where_that_is_known() {
         writeln!(rows, "{t:.6},{:.9e}", relaxing(0.0, &[(3.0, 20.0)], t)).unwrap();
     }
     let to = format!("{}:G=gel", folder.with("melt.csv", &rows));
-    let (status, words) = folder.told(&to, &[]);
+    let (status, words) = Folder::told(&to, &[]);
     assert!(status == 0 && words.contains("`--solid`"), "{words}");
-    let (status, words) = folder.told(&to, &["--solid"]);
+    let (status, words) = Folder::told(&to, &["--solid"]);
     assert!(status == 2 && words.contains("no solid"), "{words}");
 }
 
@@ -139,16 +139,16 @@ fn rows_of_several_temperatures_are_no_curve() {
         rows
     };
     let to = |name: &str, own: &str| format!("{}:E',E''=gel", folder.with(name, own));
-    let (status, words) = folder.told(&to("three.csv", &rows(20.0)), &[]);
+    let (status, words) = Folder::told(&to("three.csv", &rows(20.0)), &[]);
     assert_eq!(status, 2, "{words}");
     assert!(words.contains("from 20.0 to 60.0 °C in column `Temperature`"), "{words}");
     let bare = rows(20.0).replace("Temperature [°C]", "Temp.");
-    assert_eq!(folder.told(&to("bare.csv", &bare), &[]).0, 2);
-    let (status, words) = folder.told(&to("one.csv", &rows(0.3)), &[]);
+    assert_eq!(Folder::told(&to("bare.csv", &bare), &[]).0, 2);
+    let (status, words) = Folder::told(&to("one.csv", &rows(0.3)), &[]);
     assert_eq!(status, 0, "{words}");
 }
 
-/// A gel of 2 MPa, 3 MPa at 0.1 s and 1 MPa at 1 s, over the angular frequency.
+/// A gel of 2, 3 and 1 megapascals, at 0.1 s and 1 s, over the angular frequency.
 fn oscillating(heading: &str) -> String {
     let mut rows = format!("{heading},Storage Modulus [Pa],Loss Modulus [Pa]\n");
     for at in 0..25_u32 {
@@ -178,7 +178,7 @@ fn angular_frequencies_are_those_whatever_their_unit_is_called() {
         "ω [1/s]",
         "w [rad/s]",
     ] {
-        let own = folder.fitted(&to(&oscillating(heading)), &[]);
+        let own = Folder::fitted(&to(&oscillating(heading)), &[]);
         let branches = own["branches"].as_array().unwrap();
         assert_eq!(branches.len(), 2, "{heading}: {own}");
         for (branch, (time, strength)) in branches.iter().zip([(0.1, 3e6), (1.0, 1e6)]) {
@@ -188,16 +188,16 @@ fn angular_frequencies_are_those_whatever_their_unit_is_called() {
     }
     // What may be either is asked about, with both readings.
     for heading in ["Frequency [1/s]", "f [s^-1]", "Angular frequency [Hz]"] {
-        let (status, words) = folder.told(&to(&oscillating(heading)), &[]);
+        let (status, words) = Folder::told(&to(&oscillating(heading)), &[]);
         assert_eq!(status, 2, "{heading}: {words}");
         assert!(words.contains("[Hz]` or `") && words.contains("[rad/s]`"), "{heading}: {words}");
     }
     // Each column says its unit.
     let bare = oscillating("f [Hz]").replace("Loss Modulus [Pa]", "Loss Modulus");
-    let (status, words) = folder.told(&to(&bare), &[]);
+    let (status, words) = Folder::told(&to(&bare), &[]);
     assert!(status == 2 && words.contains("column `Loss Modulus` has no unit"), "{words}");
     let unread = oscillating("f [furlong]");
-    let (status, words) = folder.told(&to(&unread), &[]);
+    let (status, words) = Folder::told(&to(&unread), &[]);
     assert!(status == 2 && words.contains("furlong"), "{words}");
 }
 
@@ -216,15 +216,15 @@ fn what_does_not_apply_to_a_fit_is_rejected_by_name() {
         ("--noise", "1 kPa"),
         ("--shift", "off"),
     ] {
-        let (status, words) = folder.told(&to, &[option, value]);
+        let (status, words) = Folder::told(&to, &[option, value]);
         assert!(status == 2 && words.contains(option), "{option}: {status} {words}");
     }
     let sweep = folder.with("sweep.csv", &oscillating("f [Hz]"));
     let sweep = format!("{sweep}:Storage Modulus,Loss Modulus=gel");
-    let (status, words) = folder.told(&sweep, &["--until", "1 s"]);
+    let (status, words) = Folder::told(&sweep, &["--until", "1 s"]);
     assert!(status == 2 && words.contains("--until"), "{words}");
     for setting in ["until=1 s", "foo=3", "cfc=180", "noise=3 kPa", "gain=1%"] {
-        let (status, words) = folder.told(&format!("{to},{setting}"), &[]);
+        let (status, words) = Folder::told(&format!("{to},{setting}"), &[]);
         let name = setting.split('=').next().unwrap();
         assert!(status == 2 && words.contains(&format!("`{name}`")), "{setting}: {words}");
     }
@@ -242,7 +242,7 @@ fn what_does_not_apply_to_a_fit_is_rejected_by_name() {
     for (option, value) in [("--error", "2%"), ("--padding", "even"), ("--solid", "")] {
         let rest = [scene.as_str(), "--vary", "K=10..1000 kN/m", option, value];
         let rest = if value.is_empty() { &rest[..4] } else { &rest[..] };
-        let (status, words) = folder.told(&to, rest);
+        let (status, words) = Folder::told(&to, rest);
         assert!(status == 2 && words.contains(option), "{option}: {words}");
     }
 }
@@ -284,7 +284,7 @@ fn the_floor_lies_below_what_another_program_reaches_and_close_to_it() {
     assert_eq!(all.len(), 9);
     let mut parts = Vec::new();
     for (to, kind, nearest) in all {
-        let own = folder.fitted(&to, &[]);
+        let own = Folder::fitted(&to, &[]);
         let part = number(&own["floor"]) / nearest;
         assert!(
             part <= 1.0 + 1e-9 && number(&own["rms"]) >= nearest * (1.0 - 1e-9),

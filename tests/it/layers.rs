@@ -481,10 +481,6 @@ fn struck_rod(ratio: f64, segments: usize, method: &str) -> [f64; 2] {
         let own = report.measure(key).unwrap();
         let (value, error) = (own.value.unwrap(), own.error.unwrap());
         let off = (value - expected).abs();
-        println!(
-            "{ratio} {segments} {key}: {value:e} ± {error:.1e}, {expected:e}, {:.2}",
-            off / error
-        );
         assert!(off <= error, "{ratio} {segments} {key}: {value} ± {error}, not {expected}");
         error / value
     });

@@ -107,7 +107,6 @@ impl Tally {
     }
 
     fn hold(&self, command: &str) {
-        println!("{command}: {} studies, {} with a claim", self.studies, self.claims);
         assert!(self.wrong.is_empty(), "{command}:\n{}", self.wrong);
         assert!(
             4 * self.claims >= 3 * self.studies,
@@ -266,8 +265,8 @@ fn cushions(count: usize, seed: u64) {
         tally.studies += 1;
         let output = run(&of);
         let shown = out(&output);
-        let label = shown.lines().filter_map(|own| own.split_whitespace().next());
-        let label = label.filter(|own| ["PASS", "FAIL", "NONE", "thinnest"].contains(own)).next();
+        let mut label = shown.lines().filter_map(|own| own.split_whitespace().next());
+        let label = label.find(|own| ["PASS", "FAIL", "NONE", "thinnest"].contains(own));
         let Some(label) = label.map(str::to_owned) else { continue };
         tally.claims += 1;
         let object = object(&of).unwrap();

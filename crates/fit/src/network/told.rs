@@ -64,14 +64,18 @@ impl Task<'_> {
         Some(samples.map(|value| Some(own.gain * value)).collect())
     }
 
-    /// How many rows of a test are of samples before the impact.
-    pub(super) fn rows_at_rest(&self, test: usize, unknowns: &[f64]) -> usize {
+    /// Until when the filtered record of a test rests \[s\]; minus infinity where it is not one of an impact.
+    fn rests_until(&self, test: usize, shift: f64) -> f64 {
         let own = &self.tests()[test];
         if own.kind != Kind::Blow {
-            return 0;
+            return f64::NEG_INFINITY;
         }
-        let smeared = own.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency());
-        self.rows_before(test, self.own(test, unknowns).shift - smeared)
+        shift - own.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency())
+    }
+
+    /// How many rows of a test are of samples before the impact.
+    pub(super) fn rows_at_rest(&self, test: usize, unknowns: &[f64]) -> usize {
+        self.rows_before(test, self.rests_until(test, self.own(test, unknowns).shift))
     }
 
     /// What there is to say about each test.
@@ -88,6 +92,7 @@ impl Task<'_> {
             let mean_square =
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
             let resting = &left[..self.rows_at_rest(at, unknowns)];
+            let rests = self.rests_until(at, own.shift);
             let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
             Some(TestFit {
                 shift: own.shift,

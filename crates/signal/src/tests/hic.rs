@@ -11,7 +11,7 @@ use dashpot_numerics::{
 };
 use dashpot_units::Dimension;
 
-use crate::{Channel, Measure, measures::Reader};
+use crate::{Channel, Doubt, Measure, measures::Reader};
 
 const CAPS: [(Measure, f64); 3] =
     [(Measure::Hic15, 0.015), (Measure::Hic36, 0.036), (Measure::Hic, f64::INFINITY)];
@@ -84,7 +84,7 @@ fn a_scene_and_a_record_of_it_have_one_criterion_within_the_error_that_is_stated
         let signal = blow.signal();
         let rate = stream.between(5e3, 100e3);
         let channel = blow.channel(rate);
-        let reader = Reader::new(&channel, 0.0);
+        let reader = Reader::new(&channel, Doubt::default());
         let (measure, cap) = CAPS[at % CAPS.len()];
         let scene = optimum(&signal, (0.0, 0.06), cap);
         let record = reader.read(measure).unwrap();
@@ -203,7 +203,7 @@ fn a_long_record_of_equal_pulses_has_that_of_one_and_of_all() {
     };
     let values = (0..100_000).map(value).collect();
     let channel = Channel::new("a", Dimension::ACCELERATION, times, values).unwrap();
-    let reader = Reader::new(&channel, 0.0);
+    let reader = Reader::new(&channel, Doubt::default());
     let of = |measure| {
         let own = reader.read(measure).unwrap();
         (own.value.unwrap(), own.error, own.on_samples.unwrap())
