@@ -12,7 +12,6 @@ mod cfc;
 mod channel;
 mod contact;
 mod defects;
-mod hic;
 pub mod iso_mme;
 mod measures;
 mod motion;

@@ -1,12 +1,14 @@
 //! What is read off a channel, and how far each number may be off.
 
+use std::cell::OnceCell;
+
 use dashpot_analysis::{
     Counted,
-    measures::{Exceedance, STANDARD_GRAVITY, hic_search::optimum},
+    measures::{Exceedance, STANDARD_GRAVITY, hic_search::Windows},
 };
 use dashpot_units::Dimension;
 
-use crate::{Approach, Channel, Contact, Motion, hic, sampling::Sampling};
+use crate::{Approach, Channel, Contact, Motion, sampling::Sampling};
 
 /// The time of a clip \[s\].
 const CLIP: f64 = 0.003;
@@ -176,6 +178,7 @@ pub(crate) struct Reader<'c> {
     /// How far every sample may be off in the same direction \[unit\].
     floor: f64,
     exceedance: Option<Exceedance>,
+    criteria: OnceCell<Vec<Reading>>,
 }
 
 impl<'c> Reader<'c> {
@@ -183,7 +186,8 @@ impl<'c> Reader<'c> {
         let is_acceleration = channel.dimension() == Dimension::ACCELERATION;
         let exceedance =
             is_acceleration.then(|| Exceedance::new(&channel.signal(1.0), channel.span()));
-        Self { channel, sampling: Sampling::of(channel), floor, exceedance }
+        let (sampling, criteria) = (Sampling::of(channel), OnceCell::new());
+        Self { channel, sampling, floor, exceedance, criteria }
     }
 
     /// The motion of the body that the channel is on.
@@ -204,7 +208,10 @@ impl<'c> Reader<'c> {
                 Reading::new(measure, contact.length(), contact.error).over(contact.window)
             }
             Measure::VelocityChange | Measure::Impulse => self.integral(measure),
-            Measure::Hic15 | Measure::Hic36 | Measure::Hic => self.hic(measure),
+            Measure::Hic15 | Measure::Hic36 | Measure::Hic => {
+                let criteria = self.criteria.get_or_init(|| self.criteria());
+                *criteria.iter().find(|own| own.measure == measure)?
+            }
             Measure::SeverityIndex => self.severity(),
             Measure::Clip3ms => self.clip(measure, Counted::Together)?,
             Measure::Clip3msAtOnce => self.clip(measure, Counted::AtOnce)?,
@@ -226,9 +233,17 @@ impl<'c> Reader<'c> {
         Reading::new(measure, value, error).over(span)
     }
 
-    fn hic(&self, measure: Measure) -> Reading {
+    /// The criteria, which share what is known of the signal.
+    fn criteria(&self) -> Vec<Reading> {
+        let signal = self.channel.signal(STANDARD_GRAVITY);
+        let windows = Windows::of(&signal, self.channel.span());
+        let all = [Measure::Hic15, Measure::Hic36, Measure::Hic];
+        all.into_iter().map(|measure| self.hic(&windows, measure)).collect()
+    }
+
+    fn hic(&self, windows: &Windows<'_>, measure: Measure) -> Reading {
         let cap = measure.cap();
-        let found = optimum(&self.channel.signal(STANDARD_GRAVITY), self.channel.span(), cap);
+        let found = windows.optimum(cap);
         let (from, to) = found.interval;
         let length = to - from;
         if length <= 0.0 {
@@ -240,8 +255,8 @@ impl<'c> Reader<'c> {
         let growth = EXPONENT * (mean + hidden / STANDARD_GRAVITY / length).powf(1.5);
         let error = growth * hidden / STANDARD_GRAVITY + found.threshold + ROUNDING * found.value;
         let reading = Reading::new(measure, found.value, error).over(found.interval);
-        let on_samples = hic::on_samples(self.channel, cap, found.interval);
-        Reading { on_samples: Some(on_samples), ..reading }
+        let on_samples = windows.optimum_between(cap, (self.channel.times(), found.interval));
+        Reading { on_samples: Some(on_samples.value), ..reading }
     }
 
     fn severity(&self) -> Reading {

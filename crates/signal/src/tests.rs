@@ -5,6 +5,8 @@ use dashpot_units::Dimension;
 
 use super::*;
 
+mod hic;
+
 /// A pulse over its own length and height: shape, HIC in parts of `A^2.5 T`, integral, severity index.
 struct Pulse {
     name: &'static str,

@@ -7,7 +7,7 @@ use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
     Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
-    hic_search::{optimum, optimum_of_magnitude},
+    hic_search::{RESOLUTION, optimum, optimum_of_magnitude},
 };
 use crate::{Note, Solution, VelocityJump, plain::powers::raised};
 
@@ -127,7 +127,7 @@ impl MeasureKind for Hic {
         let is_at_end = found.interval.1 >= span.to;
         let last = if is_at_end { acceleration.left_value(span.to).abs() } else { 0.0 };
         let error = acceleration.error.zip(span.to_error).map(|(error, shift)| {
-            growth * (error * length + last * shift) + found.threshold + 1e-13 * found.value
+            growth * (error * length + last * shift) + found.threshold + RESOLUTION * found.value
         });
         let reading = Reading::over(&span, found.value, error).changing(growth * last);
         let magnitude = optimum_of_magnitude(&acceleration, span.window(), self.cap);

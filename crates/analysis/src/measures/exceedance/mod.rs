@@ -126,8 +126,13 @@ impl Exceedance {
 
 /// The place in a piece at which its magnitude passes a level between those at its ends.
 fn passage(piece: &Piece, level: f64) -> f64 {
+    let [first, last] = piece.ends.map(f64::abs);
+    if piece.panel.coefficients.len() <= 2 {
+        // A straight line, as records have.
+        return (2.0 * (level - first) / (last - first) - 1.0).clamp(-1.0, 1.0);
+    }
     let value = |x: f64| chebyshev::evaluate(&piece.panel.coefficients, x).abs() - level;
-    let rises = piece.ends[1].abs() >= piece.ends[0].abs();
+    let rises = last >= first;
     // The magnitude is monotone, so halving finds it to the last bit.
     let (from, to) = bisect(-1.0, 1.0, 53, |x| (value(x) >= 0.0) == rises);
     0.5 * (from + to)

@@ -3,7 +3,7 @@
 use dashpot_dae::{Panel, Signal};
 use dashpot_numerics::chebyshev::{self, Coefficients};
 
-use super::Range;
+use super::{middle_of, search::Range};
 
 /// Less area than this part of the other is none.
 const ROUNDING: f64 = 1e-12;
@@ -72,8 +72,9 @@ impl Part<'_> {
 }
 
 impl<'a> Area<'a> {
-    /// Cuts the signal in the window.
-    pub(super) fn new(signal: &'a Signal, window: (f64, f64), sense: Sense) -> Self {
+    /// Cuts the signal in the window, whose magnitude counts.
+    pub(super) fn new(signal: &'a Signal, window: (f64, f64)) -> Self {
+        let sense = Sense::Magnitude;
         let window = (window.0.max(signal.start()), window.1.min(signal.end()));
         let inside = |t: &f64| *t > window.0 && *t < window.1;
         let zeros = signal.crossings(0.0, window).into_iter().map(|crossing| crossing.time);
@@ -96,9 +97,26 @@ impl<'a> Area<'a> {
             sense,
             knots,
             borders,
-            parts: parts(signal, window, &zeros, sense),
+            parts: parts(signal, window, &zeros),
             largest: signal.absolute_maximum(window).value,
         }
+    }
+
+    /// The same in another sense.
+    pub(super) fn in_sense(&self, sense: Sense) -> Self {
+        let mut before = [0.0; 2];
+        let ends = self.parts.iter().skip(1).map(|own| own.start).chain(self.knots.last().copied());
+        let turned = self.parts.iter().zip(ends).map(|(part, end)| {
+            let height = sense.of(part.panel.value(part.start));
+            let antiderivative = part.antiderivative.clone();
+            let is_for = sense.of(part.sign) > 0.0;
+            let own = Part { antiderivative, is_for, height, before, ..*part };
+            before = own.areas_until(end);
+            own
+        });
+        let parts = turned.collect();
+        let (knots, borders) = (self.knots.clone(), self.borders.clone());
+        Self { sense, knots, borders, parts, largest: self.largest }
     }
 
     /// That of a signal that is positive in the window and rises to one place, if any, and falls behind it.
@@ -110,7 +128,7 @@ impl<'a> Area<'a> {
             sense,
             knots,
             borders: vec![window.0, window.1],
-            parts: parts(signal, window, &[], sense),
+            parts: parts(signal, window, &[]),
             largest: signal.value(top),
         }
     }
@@ -140,9 +158,7 @@ impl<'a> Area<'a> {
 
     /// The knot in the middle of those between two times.
     pub(super) fn middle_knot(&self, from: f64, to: f64) -> Option<f64> {
-        let first = self.knots.partition_point(|knot| *knot <= from);
-        let last = self.knots.partition_point(|knot| *knot < to);
-        (first < last).then(|| self.knots[first.midpoint(last)])
+        middle_of(&self.knots, from, to)
     }
 
     /// The largest value of `|s|`.
@@ -222,8 +238,8 @@ impl<'a> Area<'a> {
     }
 }
 
-/// The panels of the signal in the window, cut at its zeros.
-fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64], sense: Sense) -> Vec<Part<'a>> {
+/// The panels of the signal in the window, cut at its zeros, whose magnitude counts.
+fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64]) -> Vec<Part<'a>> {
     let mut parts = Vec::with_capacity(signal.panels.len() + zeros.len());
     let mut before = [0.0; 2];
     for panel in &signal.panels {
@@ -238,10 +254,9 @@ fn parts<'a>(signal: &'a Signal, window: (f64, f64), zeros: &[f64], sense: Sense
             let antiderivative = chebyshev::antiderivative(&panel.coefficients);
             let sign = panel.value(0.5 * (from + to)).signum();
             let offset = chebyshev::evaluate(&antiderivative, panel.place(from));
-            let height = sense.of(panel.value(from));
-            let is_for = sense.of(sign) > 0.0;
+            let (start, height) = (from, panel.value(from).abs());
             let part =
-                Part { panel, antiderivative, sign, is_for, start: from, height, offset, before };
+                Part { panel, antiderivative, sign, is_for: true, start, height, offset, before };
             before = part.areas_until(to);
             parts.push(part);
             from = to;

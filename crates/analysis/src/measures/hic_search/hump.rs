@@ -1,60 +1,67 @@
 //! The interval of a signal with a single hump.
 //!
-//! Of all intervals of one length the best is where the signal is above a level `c`. Over those the criterion rises
-//! with the level while `c` is below 0.6 times the mean `m(c)`. So the search is one for the level, where
-//! `c = 0.6 m(c)`, or where the interval is as long as the cap.
+//! Of all intervals of a length `T` the best is where the signal is above a level `c`. Its area `V(T)` is concave, with
+//! the slope `c(T)`: at a level the straight line of this slope lies above it everywhere. Between two levels the criterion
+//! `V^2.5/T^1.5` is therefore no larger than on the two lines up to where they meet. On a straight line with the area
+//! `a + c T`, `a ≥ 0`, it falls up to `T = 1.5 a/c` and rises behind, and so is largest at the ends of any stretch: at one
+//! of the levels, or where the lines meet. This bound exceeds the best by the square of what lies between the levels, and
+//! they are divided until it does so no more. Above 0.6 times the top the criterion falls with the level (`c` is above 0.6
+//! times the mean), so no level there is asked for. There may be several levels at which it is locally largest: a peak with
+//! a long shoulder has two.
 
 use dashpot_numerics::roots::false_position;
 
-use super::{Optimum, area::Area, criterion};
+use super::{Optimum, RESOLUTION, area::Area, criterion};
 
-/// Levels at which it is looked whether there is one such place.
-const LEVELS: usize = 16;
-/// How near the signal is to a level at the ends of its interval, in parts of its range: where the sign of a difference
-/// is asked for …
-const ROUGH: f64 = 1e-4;
-/// … and at the optimum, where the criterion is stationary.
+/// Levels that are looked at first.
+const LEVELS: usize = 8;
+/// Pairs of levels that are divided at most.
+const MOST_PAIRS: usize = 2000;
+/// How near the signal is to a level at the ends of its interval, in parts of its range, and how near levels come to
+/// each other.
 const NEAR: f64 = 1e-9;
 /// What is left of a bracket in which nothing comes so near, in parts of its upper end.
 const NARROW: f64 = 1e-12;
 
-/// The optimum, where the signal rises to one place and falls behind it, or does one of both, and one level alone
-/// may be that of the optimum, as far as [`LEVELS`] of them tell.
+/// The optimum, where the signal rises to one place and falls behind it, or does one of both.
 pub(super) fn optimum(area: &Area<'_>, cap: f64) -> Option<Optimum> {
-    let hump = Hump::of(area)?;
-    let (lowest, highest) = (hump.ends[0].1.min(hump.ends[1].1), hump.top.1);
-    let range = highest - lowest;
-    let level = |at: usize| lowest + range * at as f64 / LEVELS as f64;
-    // The highest level has no interval of any length; there it is the mean itself.
-    let slack =
-        |at: usize| if at < LEVELS { hump.slack(level(at), ROUGH * range) } else { 0.4 * highest };
-    let is_known = |at: usize| if at < LEVELS { hump.is_slack(level(at)) } else { Some(true) };
-    let is_slack = |at: usize| is_known(at).unwrap_or_else(|| slack(at) > 0.0);
-    let signs: [bool; LEVELS + 1] = std::array::from_fn(is_slack);
-    let turn = signs.iter().position(|is_slack| *is_slack)?;
-    if signs[turn..].contains(&false) {
-        return None;
+    Hump::of(area).map(|hump| hump.optimum(cap))
+}
+
+/// The interval in which the signal is above a level.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    level: f64,
+    interval: (f64, f64),
+    area: f64,
+}
+
+impl Cut {
+    fn length(&self) -> f64 {
+        self.interval.1 - self.interval.0
     }
-    let near = NEAR * range;
-    let mut best = lowest;
-    if turn > 0 {
-        let at = |at: usize| (level(at), slack(at));
-        best = root(at(turn - 1), at(turn), near, |level| hump.slack(level, near));
+
+    fn value(&self) -> f64 {
+        criterion(self.area, self.length())
     }
-    let mut interval = hump.above(best, near);
-    if interval.1 - interval.0 > cap {
-        let excess = |level: f64| {
-            let interval = hump.above(level, near);
-            interval.1 - interval.0 - cap
-        };
-        let level = root((best, excess(best)), (highest, -cap), NEAR * cap, excess);
-        let (from, to) = hump.above(level, near);
-        // To the last digit as long as the cap, and where it begins or ends with the window there.
-        let end = hump.ends[1].0;
-        interval = if to < end { (from, from + cap) } else { (end - cap, end) };
+
+    /// `c − 0.6 m(c)`: the criterion rises with the level where it is negative.
+    fn slack(&self) -> f64 {
+        self.level - 0.6 * self.area / self.length()
     }
-    let value = criterion(area.between(interval.0, interval.1), interval.1 - interval.0);
-    Some(Optimum { value, interval, threshold: 0.0 })
+
+    /// What no criterion exceeds at a level between this and a higher one.
+    fn most(&self, higher: &Self) -> f64 {
+        let ends = self.value().max(higher.value());
+        let apart = higher.level - self.level;
+        let longer = self.length() - higher.length();
+        if apart <= 0.0 || longer <= 0.0 {
+            return ends;
+        }
+        let beyond = (self.area - higher.area - self.level * longer) / apart;
+        let beyond = beyond.clamp(0.0, longer);
+        ends.max(criterion(higher.area + higher.level * beyond, higher.length() + beyond))
+    }
 }
 
 /// Where a function passes zero between two places at which it has different signs: as soon as it is as `near`.
@@ -97,6 +104,73 @@ impl<'h, 'a> Hump<'h, 'a> {
         (top >= first && top >= last && top > first.min(last)).then_some(hump)
     }
 
+    fn optimum(&self, cap: f64) -> Optimum {
+        let (lowest, highest) = (self.ends[0].1.min(self.ends[1].1), self.top.1);
+        let near = NEAR * (highest - lowest);
+        let mut longest = self.cut(lowest, near);
+        if longest.length() > cap {
+            let excess = |level: f64| self.cut(level, near).length() - cap;
+            let bracket = [(lowest, longest.length() - cap), (highest, -cap)];
+            longest = self.cut(root(bracket[0], bracket[1], NEAR * cap, excess), near);
+            // To the last digit as long as the cap, and where it begins or ends with the window there.
+            let ((from, to), end) = (longest.interval, self.ends[1].0);
+            longest.interval = if to < end { (from, from + cap) } else { (end - cap, end) };
+            longest.area = self.area.between(longest.interval.0, longest.interval.1);
+        }
+        let range = (0.6 * highest - longest.level).max(0.0);
+        let levels = (1..=LEVELS).map(|at| longest.level + range * at as f64 / LEVELS as f64);
+        let mut cuts = vec![longest];
+        cuts.extend(levels.filter(|level| *level > longest.level).map(|at| self.cut(at, near)));
+        let (best, threshold) = self.searched(cuts, near);
+        Optimum { value: best.value(), interval: best.interval, threshold }
+    }
+
+    /// The best at levels from that of the first of these to that of the last, and what may be missed of it.
+    fn searched(&self, mut cuts: Vec<Cut>, near: f64) -> (Cut, f64) {
+        let mut best = cuts[0];
+        let mut pairs: Vec<[Cut; 2]> = Vec::with_capacity(4 * LEVELS);
+        let at = (1..cuts.len())
+            .fold(0, |at, other| if cuts[other].value() > cuts[at].value() { other } else { at });
+        // The stationary level beside the best of the first to the last digits: then little else is in question.
+        let around = |at: usize| cuts[at - 1].slack() < 0.0 && cuts[at].slack() > 0.0;
+        if let Some(upper) = (at.max(1)..(at + 2).min(cuts.len())).find(|at| around(*at)) {
+            let bracket = [cuts[upper - 1], cuts[upper]].map(|cut| (cut.level, cut.slack()));
+            let slack = |level: f64| self.cut(level, near).slack();
+            let level = root(bracket[0], bracket[1], near, slack);
+            cuts.insert(upper, self.cut(level, near));
+        }
+        for cut in &cuts {
+            if cut.value() > best.value() {
+                best = *cut;
+            }
+        }
+        pairs.extend(cuts.windows(2).map(|pair| [pair[0], pair[1]]));
+        let (mut most, mut divided) = (0.0_f64, 0);
+        while let Some([low, high]) = pairs.pop() {
+            let (bound, value) = (low.most(&high), best.value());
+            if bound <= value * (1.0 + RESOLUTION) {
+                continue;
+            }
+            divided += 1;
+            if high.level - low.level <= 2.0 * near || divided > MOST_PAIRS {
+                most = most.max(bound);
+                continue;
+            }
+            let cut = self.cut(0.5 * (low.level + high.level), near);
+            if cut.value() > value {
+                best = cut;
+            }
+            pairs.extend([[low, cut], [cut, high]]);
+        }
+        (best, (most - best.value()).max(0.0))
+    }
+
+    /// The interval above a level, its ends as near to that as `near`.
+    fn cut(&self, level: f64, near: f64) -> Cut {
+        let interval = self.above(level, near);
+        Cut { level, interval, area: self.area.between(interval.0, interval.1) }
+    }
+
     /// Where it is above a level, the ends as near to it as `near`.
     fn above(&self, level: f64, near: f64) -> (f64, f64) {
         let over = |time: f64| self.area.height(time) - level;
@@ -119,22 +193,5 @@ impl<'h, 'a> Hump<'h, 'a> {
     fn around(&self, level: f64, end: (f64, f64)) -> [(f64, f64); 2] {
         let sides = if end.0 < self.top.0 { [end, self.top] } else { [self.top, end] };
         self.area.around(level, sides)
-    }
-
-    /// Whether `c − 0.6 m(c)` is positive, where it is so, or not, wherever the ends lie between their neighbours.
-    fn is_slack(&self, level: f64) -> Option<bool> {
-        let side = |end: (f64, f64)| {
-            if end.1 >= level { [end.0; 2] } else { self.around(level, end).map(|own| own.0) }
-        };
-        let ([out_before, before], [after, out_after]) = (side(self.ends[0]), side(self.ends[1]));
-        let most = self.area.between(out_before, out_after) / (after - before);
-        let least = self.area.between(before, after) / (out_after - out_before);
-        if level > 0.6 * most { Some(true) } else { (level < 0.6 * least).then_some(false) }
-    }
-
-    /// `c − 0.6 m(c)`.
-    fn slack(&self, level: f64, near: f64) -> f64 {
-        let (from, to) = self.above(level, near);
-        level - 0.6 * self.area.between(from, to) / (to - from)
     }
 }

@@ -1,6 +1,9 @@
 use std::f64::consts::PI;
 
-use dashpot_analysis::measures::hic_search::optimum;
+use dashpot_analysis::measures::{
+    STANDARD_GRAVITY,
+    hic_search::{Windows, optimum},
+};
 use dashpot_dae::{Panel, Signal};
 use dashpot_numerics::{
     Stream,
@@ -8,8 +11,7 @@ use dashpot_numerics::{
 };
 use dashpot_units::Dimension;
 
-use super::*;
-use crate::{Measure, measures::Reader};
+use crate::{Channel, Measure, measures::Reader};
 
 const CAPS: [(Measure, f64); 3] =
     [(Measure::Hic15, 0.015), (Measure::Hic36, 0.036), (Measure::Hic, f64::INFINITY)];
@@ -161,7 +163,10 @@ fn no_interval_of_a_fine_grid_is_better_and_those_of_samples_are_all_tried() {
             let least = (area - lost).max(0.0).powf(2.5) / length.powf(1.5);
             assert!(fine >= least, "{at}: {found:?}, {fine} and {least}");
         }
-        let own = on_samples(&channel, cap, found.interval);
+        let signal = channel.signal(STANDARD_GRAVITY);
+        let windows = Windows::of(&signal, channel.span());
+        let own = windows.optimum_between(cap, (channel.times(), found.interval)).value;
+        assert!(own <= found.value * (1.0 + 1e-12), "{at}: {own} of samples, {found:?}");
         assert!((own - coarse).abs() <= 1e-9 * coarse, "{at}: {own} and {coarse}");
     }
 }
@@ -185,4 +190,39 @@ fn a_long_record_with_noise_has_its_criterion_to_the_last() {
         assert!((found.value / exact - 1.0).abs() < 1e-2, "{found:?}, not {exact}");
         assert!(found.threshold <= 0.0, "{found:?}");
     }
+}
+
+#[test]
+fn a_long_record_of_equal_pulses_has_that_of_one_and_of_all() {
+    // 100 000 samples: 500 half-sines of 10 ms and 100 g, each as good as the next, every 20 ms.
+    let rate = 1e4;
+    let times: Vec<f64> = (0..100_000).map(|at| f64::from(at) / rate).collect();
+    let value = |at: u32| {
+        let place = f64::from(at % 200) / 100.0;
+        if place < 1.0 { 100.0 * STANDARD_GRAVITY * (PI * place).sin() } else { 0.0 }
+    };
+    let values = (0..100_000).map(value).collect();
+    let channel = Channel::new("a", Dimension::ACCELERATION, times, values).unwrap();
+    let reader = Reader::new(&channel, 0.0);
+    let of = |measure| {
+        let own = reader.read(measure).unwrap();
+        (own.value.unwrap(), own.error, own.on_samples.unwrap())
+    };
+    for measure in [Measure::Hic15, Measure::Hic36] {
+        let (value, error, samples) = of(measure);
+        // Straight lines lie below the sine by up to (π/100)²/8 of it.
+        let exact = 0.414_645_65 * 100.0_f64.powf(2.5) * 0.01;
+        assert!((value / exact - 1.0).abs() < 1e-3 && error < 0.01 * value, "{value} ± {error}");
+        assert!(samples <= value && samples > 0.999 * value, "{samples} and {value}");
+    }
+    // All of them: from a little within the first one to as much within the last.
+    let (value, error, samples) = of(Measure::Hic);
+    let within = |part: u32| {
+        let lost = 0.01 * f64::from(part) / 2000.0;
+        let area = 500.0 * 2.0 / PI - 2.0 / PI * (1.0 - (PI * lost / 0.01).cos());
+        area.powf(2.5) / (9.99 - 2.0 * lost).powf(1.5)
+    };
+    let exact = (0..1000).map(within).fold(0.0, f64::max);
+    assert!((value / exact - 1.0).abs() < 1e-3 && error < 0.01 * value, "{value}, not {exact}");
+    assert!(samples <= value && samples > 0.999 * value, "{samples} and {value}");
 }
