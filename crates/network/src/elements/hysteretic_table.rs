@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use dashpot_numerics::quadrature::GaussLegendre;
+use dashpot_numerics::{
+    chebyshev::{self, Interpolation},
+    quadrature::integral,
+};
 
 use super::{
     Element, TableSpring,
@@ -30,11 +33,12 @@ use crate::{
 /// | `y_i, F_i` | `loading`   | m, N | from (0, 0), rising, forces never falling |
 /// | `y_j, U_j` | `unloading` | m, N | from a force of zero, rising, to a point of the curve of loading |
 ///
-/// The curve of unloading was measured from one depth `Y`, its last point. What it is at other
-/// depths follows from the part `φ_j = U_j/f(y_j)` of the first curve that it is at `y_j/Y`. Between
-/// the points `φ` is interpolated as the first curve is, so for `y_m = Y` it goes through all points.
-/// `φ` may not exceed 1, and may not fall as the deformation rises: else going deeper would give
-/// energy back.
+/// The curve of unloading was measured from one depth `Y`, its last point: from there it is the
+/// curve `U` through its points, drawn as that of a [`TableSpring`]. What it is at other depths
+/// follows from the part of the first curve that it is, `φ(x) = U(x Y)/f(x Y)`: a straight line
+/// beside a straight line stays straight at all depths. At its points `φ` may not exceed 1, and may
+/// not fall as the deformation rises: else going deeper would give energy back. Where it would fall
+/// between two points all the same, `φ` is drawn through its values there as `f` is.
 ///
 /// # Energy
 ///
@@ -76,10 +80,22 @@ struct Curves {
     loading: TableSpring,
     /// The points of unloading as they were given.
     unloading: Vec<(f64, f64)>,
-    /// The part of the greatest deformation that remains.
-    set: f64,
-    /// `φ` over the part of the greatest deformation, from the set to 1.
-    factor: MonotoneCurve,
+    factor: Factor,
+}
+
+/// The part `φ` of the first curve that the second one is, over the part `x` of the greatest deformation, from the
+/// set to 1.
+#[derive(Debug, PartialEq)]
+struct Factor {
+    /// The curve of unloading, from the set to the depth that it was measured from.
+    curve: MonotoneCurve,
+    /// `φ` at the points of unloading, over `x`.
+    points: MonotoneCurve,
+    /// The intervals between these points in which `φ` is that of the curves, and does not fall.
+    of_curves: Vec<bool>,
+    /// The depth that it was measured from \[m\], and the least one at which both curves can be compared.
+    depth: f64,
+    least: f64,
 }
 
 const LOADING: &str = "loading";
@@ -105,8 +121,8 @@ impl HystereticTable {
         }
         let loading = TableSpring::new(loading)
             .map_err(|own| InvalidParameter::new(LOADING, own.range, own.found))?;
-        let (set, factor) = factor(&loading, &unloading)?;
-        Ok(Self(Arc::new(Curves { loading, unloading, set, factor })))
+        let factor = factor(&loading, &unloading)?;
+        Ok(Self(Arc::new(Curves { loading, unloading, factor })))
     }
 
     /// Points of deformation \[m\] and force \[N\] of the first curve.
@@ -120,11 +136,69 @@ impl HystereticTable {
     }
 }
 
-/// The set as a part of the greatest deformation, and `φ` over that part.
-fn factor(
-    loading: &TableSpring,
-    unloading: &[(f64, f64)],
-) -> Result<(f64, MonotoneCurve), InvalidParameter> {
+/// So much of a depth beyond one at which there is no force, the forces are compared.
+const BESIDE: f64 = 1e-7;
+
+impl Factor {
+    /// Of these curves of loading and unloading, with `φ` at the points of the latter.
+    fn new(loading: &TableSpring, unloading: Vec<(f64, f64)>, parts: Vec<(f64, f64)>) -> Self {
+        let [set, depth] = [unloading[0].0, unloading[unloading.len() - 1].0];
+        let has_force = loading.force(set, 0.0) > 0.0;
+        let least = if has_force { set } else { set + BESIDE * (depth - set) };
+        let intervals: Vec<(f64, f64)> =
+            unloading.windows(2).map(|pair| (pair[0].0, pair[1].0)).collect();
+        let (curve, points) = (MonotoneCurve::through(unloading), MonotoneCurve::through(parts));
+        let mut factor = Self { curve, points, of_curves: Vec::new(), depth, least };
+        factor.of_curves =
+            intervals.into_iter().map(|interval| factor.rises(loading, interval)).collect();
+        factor
+    }
+
+    /// Whether `U/f` does not fall between two depths: `U' f − U f'`, of the fifth degree between bends, is positive.
+    fn rises(&self, loading: &TableSpring, (from, to): (f64, f64)) -> bool {
+        let bends = loading.points().iter().map(|point| point.0);
+        let bends: Vec<f64> = bends.filter(|bend| *bend > from && *bend < to).collect();
+        let starts = [from].into_iter().chain(bends.iter().copied());
+        let ends = bends.iter().copied().chain([to]);
+        let interpolation = Interpolation::of_degree(5);
+        starts.zip(ends).all(|(start, end)| {
+            let terms = |node: &f64| {
+                let y = f64::midpoint(start, end) + 0.5 * (end - start) * node;
+                let (force, slope) = (loading.force(y, 0.0), loading.tangent(y, 0.0).stiffness);
+                [self.curve.slope(y) * force, self.curve.value(y) * slope]
+            };
+            let terms: Vec<[f64; 2]> = interpolation.nodes().iter().map(terms).collect();
+            let size = terms.iter().map(|own| own[0] + own[1]).fold(0.0, f64::max);
+            let values: Vec<f64> =
+                terms.iter().map(|own| own[0] - own[1] + ROUNDING * size).collect();
+            let mut coefficients = [0.0; 6];
+            interpolation.coefficients(&values, &mut coefficients);
+            values.iter().all(|value| *value >= 0.0)
+                && chebyshev::sign_changes(&coefficients).is_empty()
+        })
+    }
+
+    /// The set, as a part of the greatest deformation.
+    fn set(&self) -> f64 {
+        self.points.ends()[0].0
+    }
+
+    /// `φ` and its slope.
+    fn at(&self, loading: &TableSpring, part: f64) -> (f64, f64) {
+        let after = self.points.points().partition_point(|point| point.0 <= part);
+        if !self.of_curves[after.clamp(1, self.of_curves.len()) - 1] {
+            return (self.points.value(part), self.points.slope(part));
+        }
+        let y = (part * self.depth).max(self.least);
+        let force = loading.force(y, 0.0);
+        let value = self.curve.value(y) / force;
+        let slope = (self.curve.slope(y) - value * loading.tangent(y, 0.0).stiffness) / force;
+        (value, slope * self.depth)
+    }
+}
+
+/// `φ` of two curves.
+fn factor(loading: &TableSpring, unloading: &[(f64, f64)]) -> Result<Factor, InvalidParameter> {
     let invalid =
         |range: &str, found: String| Err(InvalidParameter::new(UNLOADING, range.to_owned(), found));
     check_order(unloading)?;
@@ -160,10 +234,13 @@ fn factor(
     if let Some(end) = parts.last_mut() {
         *end = (1.0, 1.0);
     }
-    let set = parts[0].0;
-    let curve = MonotoneCurve::through(parts);
-    if curve.is_finite() {
-        return Ok((set, curve));
+    let mut unloading = unloading[slack..].to_vec();
+    if let Some(end) = unloading.last_mut() {
+        end.1 = there;
+    }
+    let factor = Factor::new(loading, unloading, parts);
+    if factor.curve.is_finite() && factor.points.is_finite() {
+        return Ok(factor);
     }
     invalid("such that its slopes fit into double precision", "beyond that".to_owned())
 }
@@ -223,19 +300,20 @@ impl TwoCurves for HystereticTable {
     }
 
     fn kept(&self, deepest: f64) -> f64 {
-        self.0.set * deepest
+        self.0.factor.set() * deepest
     }
 
     fn factor(&self, deformation: f64, deepest: f64) -> (f64, f64) {
         let part = deformation / deepest;
-        if part < self.0.set {
+        if part < self.0.factor.set() {
             return (0.0, 0.0);
         }
-        (self.0.factor.value(part), self.0.factor.slope(part) / deepest)
+        let (value, slope) = self.0.factor.at(&self.0.loading, part);
+        (value, slope / deepest)
     }
 
     fn recoverable(&self, deformation: f64, deepest: f64) -> f64 {
-        let from = self.0.set * deepest;
+        let from = self.kept(deepest);
         if deformation <= from {
             return 0.0;
         }
@@ -246,14 +324,15 @@ impl TwoCurves for HystereticTable {
         bends.retain(between);
         bends.extend([from, deformation]);
         bends.sort_by(f64::total_cmp);
-        let force = |at: f64| self.0.loading.force(at, 0.0) * self.0.factor.value(at / deepest);
-        // A cubic times a part that falls with it: a polynomial of the seventh degree at most.
-        let rule = GaussLegendre::with_points(4);
-        bends.windows(2).map(|pair| rule.integrate(pair[0], pair[1], force)).sum()
+        let force = |at: f64| self.0.loading.force(at, 0.0) * self.factor(at, deepest).0;
+        bends.windows(2).map(|pair| integral(force, pair[0], pair[1])).sum()
     }
 
     fn bends(&self) -> Vec<f64> {
-        self.0.factor.points().iter().map(|point| point.0).collect()
+        let Factor { points, depth, .. } = &self.0.factor;
+        let loading = self.loading_points().iter().map(|point| point.0 / depth);
+        let loading = loading.filter(|part| *part > self.0.factor.set() && *part < 1.0);
+        points.points().iter().map(|point| point.0).chain(loading).collect()
     }
 }
 
@@ -300,125 +379,10 @@ impl Kind for HystereticTable {
             TableSpring::through(vec![(0.0, 0.0), (0.004, 500.0), (0.012, 800.0), (0.02, 3000.0)]);
         let unloading = vec![(0.003, 0.0), (0.012, 200.0), (0.02, 3000.0)];
         let parts = vec![(0.15, 0.0), (0.6, 0.25), (1.0, 1.0)];
-        let factor = MonotoneCurve::through(parts);
-        Self(Arc::new(Curves { loading, unloading, set: 0.15, factor }))
+        let factor = Factor::new(&loading, unloading.clone(), parts);
+        Self(Arc::new(Curves { loading, unloading, factor }))
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::elements::{
-        Foam, HystereticFoam,
-        hysteresis::{
-            LOADING, SLACK, UNLOADING,
-            tests::{never_gives_more_than_it_took, travelled},
-        },
-    };
-
-    fn curve(of: &HystereticTable, deepest: f64) -> Arc<dyn Element> {
-        match Phases::law(of, Phase { index: UNLOADING, memory: deepest }) {
-            PhaseLaw::Element(element) => element,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn straight_curves_have_the_areas_of_their_closed_forms() {
-        // f = k y, φ = (x − r)/(1 − r): ∫ = k y_m² (1/3 − r/2 + r³/6)/(1 − r).
-        let (k, r) = (1e3, 0.2);
-        let table =
-            HystereticTable::new(vec![(0.0, 0.0), (1.0, k)], vec![(r, 0.0), (1.0, k)]).unwrap();
-        let foam = Foam {
-            modulus: k,
-            plateau: 1e12,
-            densification: 0.0,
-            exponent: 1.0,
-            thickness: 1.0,
-            area: 1.0,
-        };
-        let foam = HystereticFoam { foam, set: r, unloading_exponent: 1.0 };
-        for deepest in [0.1, 0.5, 1.0, 1.7] {
-            let exact = k * deepest * deepest * (1.0 / 3.0 - r / 2.0 + r.powi(3) / 6.0) / (1.0 - r);
-            assert!((table.stored(deepest) / exact - 1.0).abs() < 1e-13);
-            assert!((table.stored(deepest) / foam.stored(deepest) - 1.0).abs() < 1e-8);
-            let back = curve(&table, deepest);
-            for part in [0.1, 0.3, 0.7, 1.0] {
-                let y = part * deepest;
-                let exact = k * y * ((part - r) / (1.0 - r)).max(0.0);
-                assert!((back.force(y, 0.0) - exact).abs() < 1e-12 * k, "{part}");
-            }
-        }
-    }
-
-    #[test]
-    fn from_the_depth_of_the_measurement_it_goes_through_all_points() {
-        let loading: Vec<_> =
-            [0.0, 0.003, 0.007, 0.02].map(|y: f64| (y, 2e3 * y.sqrt() + 1e6 * y * y)).into();
-        let there = TableSpring::new(loading.clone()).unwrap();
-        let ends = there.force(0.02, 0.0);
-        let unloading = vec![(0.0, 0.0), (0.002, 0.0), (0.009, 30.0), (0.015, 120.0), (0.02, ends)];
-        let table = HystereticTable::new(loading, unloading.clone()).unwrap();
-        let back = curve(&table, 0.02);
-        for (y, force) in unloading {
-            assert!((back.force(y, 0.0) - force).abs() <= 1e-12 * ends, "{y}");
-        }
-        // The store is the integral of the force, and continuous where it turns back.
-        for deepest in [0.001, 0.0123, 0.02, 0.03] {
-            let back = curve(&table, deepest);
-            assert!((back.stored(deepest) / table.stored(deepest) - 1.0).abs() < 1e-13);
-            assert!((back.force(deepest, 0.0) / table.force(deepest, 0.0) - 1.0).abs() < 1e-13);
-            let steps = 20_000;
-            let step = deepest / f64::from(steps);
-            let middles = (0..steps).map(|at| step * (f64::from(at) + 0.5));
-            let sum: f64 = middles.map(|y| step * back.force(y, 0.0)).sum();
-            assert!((sum / back.stored(deepest) - 1.0).abs() < 1e-6);
-        }
-    }
-
-    #[test]
-    fn the_same_curve_twice_is_a_spring_that_never_pulls() {
-        let points = vec![(0.0, 0.0), (0.004, 500.0), (0.012, 800.0), (0.02, 3000.0)];
-        let table = HystereticTable::new(points.clone(), points.clone()).unwrap();
-        let spring = TableSpring::new(points).unwrap();
-        for y in [1e-6, 0.003, 0.01, 0.019, 0.025] {
-            assert!((table.stored(y) / spring.stored(y) - 1.0).abs() < 1e-12, "{y}");
-            let back = curve(&table, 0.02);
-            assert!((back.force(y, 0.0) / spring.force(y, 0.0) - 1.0).abs() < 1e-13, "{y}");
-        }
-    }
-
-    #[test]
-    fn it_follows_its_curves_from_phase_to_phase() {
-        let table = HystereticTable::sample();
-        let (_, phase, _) = travelled(&table, &[0.0, 0.01]);
-        assert_eq!(phase.index, LOADING);
-        let (work, phase, _) = travelled(&table, &[0.0, 0.02, -0.001]);
-        assert_eq!((phase.index, phase.memory), (SLACK, 0.02));
-        let lost = table.0.loading.stored(0.02) - table.stored(0.02);
-        assert!((work / lost - 1.0).abs() < 1e-4, "{work} {lost}");
-        never_gives_more_than_it_took(&table, 0.02);
-    }
-
-    #[test]
-    fn curves_that_would_create_energy_are_refused_with_the_place() {
-        let reason = |unloading: &[(f64, f64)]| {
-            let loading = vec![(0.0, 0.0), (1.0, 100.0), (2.0, 200.0), (4.0, 400.0)];
-            HystereticTable::new(loading, unloading.to_vec()).unwrap_err().to_string()
-        };
-        let found = reason(&[(0.0, 0.0), (1.0, 150.0), (2.0, 200.0)]);
-        assert!(found.contains("nowhere above") && found.contains("150.0 N at 1.0 m"), "{found}");
-        let found = reason(&[(0.0, 0.0), (1.0, 90.0), (3.0, 150.0), (4.0, 400.0)]);
-        assert!(
-            found.contains("never falls") && found.contains("50.0000 % of it at 3.0 m"),
-            "{found}"
-        );
-        assert!(reason(&[(0.5, 0.0), (2.0, 150.0)]).contains("ends on that of `loading`"));
-        assert!(reason(&[(0.5, 10.0), (2.0, 200.0)]).contains("begins at the set"));
-        assert!(reason(&[(2.0, 200.0), (0.5, 0.0)]).contains("rising order"));
-        assert!(reason(&[(0.5, 0.0)]).contains("two points"));
-        let loading = vec![(-1.0, -5.0), (0.0, 0.0), (1.0, 10.0)];
-        let found = HystereticTable::new(loading, vec![(0.0, 0.0), (1.0, 10.0)]).unwrap_err();
-        assert_eq!(found.parameter, "loading");
-    }
-}
+mod tests;

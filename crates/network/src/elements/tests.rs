@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::*;
 use crate::{
-    parameters::Value,
+    elements::monotone::MonotoneCurve,
+    parameters::{CurveRole, Parameter, ParameterKind, Value},
     phases::{Phase, PhaseLaw},
 };
 
@@ -148,7 +149,7 @@ fn samples_are_valid_and_come_back_from_their_values() {
         for (at, parameter) in kind.parameters.iter().enumerate() {
             assert_eq!(sample.value(parameter.name).as_ref(), Some(&values[at]));
             let wrong = sample.values_with(parameter.name, &Value::Number(f64::NAN));
-            if parameter.kind != crate::parameters::ParameterKind::Flag {
+            if parameter.kind != ParameterKind::Flag {
                 assert!((kind.make)(&wrong).is_err(), "{}.{at}", kind.word);
             }
         }
@@ -192,5 +193,110 @@ fn slopes_and_energies_by_numbers_are_those_of_the_laws() {
                 close(found.damping, exact.damping, law.force(y, v).abs());
             }
         }
+    }
+}
+
+/// A curve with more points on it: on straight lines between its points, or on a law through them.
+fn with_more(points: &[(f64, f64)], count: u32, on: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let mut all = vec![points[0]];
+    for pair in points.windows(2) {
+        for at in 1..count {
+            // At uneven distances.
+            let y =
+                pair[0].0 + (pair[1].0 - pair[0].0) * (f64::from(at) / f64::from(count)).powf(1.3);
+            all.push((y, on(y)));
+        }
+        all.push(pair[1]);
+    }
+    all
+}
+
+/// Every element that takes curves, with these for curves from rest and of unloading.
+fn with_curves(from_rest: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<Arc<dyn Element>> {
+    let is_curve = |parameter: &Parameter| matches!(parameter.kind, ParameterKind::Curve(..));
+    let kinds = ELEMENTS.iter().filter(|kind| kind.parameters.iter().any(is_curve));
+    // Of straight lines there are 20 at most.
+    let kinds = kinds.filter(|kind| kind.word != PiecewiseSpring::KIND || from_rest.len() < 22);
+    let made = kinds.map(|kind| {
+        let mut values = (kind.sample)();
+        for (value, parameter) in values.iter_mut().zip(kind.parameters) {
+            if is_curve(parameter) {
+                let is_back = parameter.curve == CurveRole::Unloading;
+                *value = Value::Table(if is_back { unloading } else { from_rest }.to_vec());
+            }
+        }
+        (kind.make)(&values).unwrap_or_else(|error| panic!("{}: {error}", kind.word))
+    });
+    made.collect()
+}
+
+/// How far two lists of laws are apart, in parts of the largest force of each.
+fn apart(one: &[Arc<dyn Element>], other: &[Arc<dyn Element>]) -> f64 {
+    let mut worst = 0.0_f64;
+    assert_eq!(one.len(), other.len());
+    for (one, other) in one.iter().zip(other) {
+        for deepest in [0.004, 0.0121, 0.0185, 0.02, 0.024] {
+            let phase = Phase { index: 2, memory: deepest };
+            let unloaded = |law: &Arc<dyn Element>| {
+                let phases = law.phases().filter(|_| law.two_curves().is_some());
+                match phases.map(|own| own.law(phase)) {
+                    Some(PhaseLaw::Element(own)) => own,
+                    _ => Arc::clone(law),
+                }
+            };
+            for (one, other) in [(one.clone(), other.clone()), (unloaded(one), unloaded(other))] {
+                for at in 1..=60 {
+                    let y = deepest * f64::from(at) / 60.0;
+                    let force = (one.force(y, 1.0) - other.force(y, 1.0)).abs();
+                    let stored = (one.stored(y) - other.stored(y)).abs();
+                    let most = one.force(0.024, 1.0).max(other.force(0.024, 1.0));
+                    worst = worst.max(force / most).max(stored / (most * 0.024));
+                }
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn points_on_a_straight_curve_change_no_law() {
+    let (line, back) = ([(0.0, 0.0), (0.02, 400.0)], [(0.0072, 0.0), (0.02, 400.0)]);
+    let plain = with_curves(&line, &back);
+    assert_eq!(plain.len(), 3);
+    let back_at = |y: f64| 400.0 * (y - 0.0072) / 0.0128;
+    for (first, second) in [(2, 1), (1, 2), (7, 3), (1, 15), (15, 1)] {
+        let (line, back) =
+            (with_more(&line, first, |y| 2e4 * y), with_more(&back, second, back_at));
+        let worst = apart(&plain, &with_curves(&line, &back));
+        assert!(worst < 1e-13, "{first}, {second}: {worst:e}");
+    }
+}
+
+#[test]
+fn points_on_a_bent_curve_tend_to_it() {
+    let line = [(0.0, 0.0), (0.004, 500.0), (0.012, 800.0), (0.02, 3000.0)];
+    let back = [(0.003, 0.0), (0.012, 200.0), (0.02, 3000.0)];
+    let plain = with_curves(&line, &back);
+    let drawn = |points: &[(f64, f64)]| MonotoneCurve::through(points.to_vec());
+    let [loading, unloading] = [drawn(&line), drawn(&back)];
+    let more = |count: u32| {
+        let line = with_more(&line, count, |y| loading.value(y));
+        let back = with_more(&back, count, |y| unloading.value(y));
+        let is_smooth = |law: &Arc<dyn Element>| law.kind() != PiecewiseSpring::KIND;
+        let smooth = |laws: Vec<Arc<dyn Element>>| laws.into_iter().filter(is_smooth).collect();
+        let (one, other): (Vec<_>, Vec<_>) =
+            (smooth(plain.clone()), smooth(with_curves(&line, &back)));
+        apart(&one, &other)
+    };
+    // The slopes at the points are those of parabolas, so that the law is nearer with the square of their number.
+    let (few, many) = (more(4), more(16));
+    assert!(few < 0.02 && many < few / 8.0, "{few:e} {many:e}");
+    // Straight lines have them to roundings.
+    let lines = PiecewiseSpring::new(line.to_vec()).unwrap();
+    let points = with_more(&line, 6, |y| lines.force(y, 0.0));
+    let others = PiecewiseSpring::new(points).unwrap();
+    for at in 0..100 {
+        let y = 0.025 * f64::from(at) / 100.0;
+        assert!((lines.force(y, 0.0) - others.force(y, 0.0)).abs() < 1e-9, "{y}");
     }
 }

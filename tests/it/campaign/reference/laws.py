@@ -336,18 +336,24 @@ def hysteretic_foam(foam, rest, q):
 
 
 def hysteretic_table(loading, unloading):
-    """The part of the first curve that the second one is at, over the parts of the depth from which it was unloaded."""
-    curve = Curve(loading)
+    """The part of the first curve that the second one is, over the parts of the depth from which it was unloaded."""
+    first_curve, second = Curve(loading), Curve(unloading)
     depth = unloading[-1][0]
-    share = Curve([(y / depth, f / float(curve.at(y))) for y, f in unloading])
+    marks = sorted({own / depth for own in (*first_curve.x, *second.x) if second.x[0] < own < depth})
+    places = [second.x[0] / depth, *marks, 1.0]
 
     def first(i, y):
-        return curve.piece(i + 1, y)
+        return first_curve.piece(i + 1, y)
 
     def part(j, u):
-        return share.piece(j + 1, u)
+        middle = depth * (places[j] + places[j + 1]) / 2
+        above, rise = first_curve.piece(int(np.searchsorted(first_curve.x, middle)), u * depth)
+        own, slope = second.piece(int(np.searchsorted(second.x, middle)), u * depth)
+        return own / above, depth * (slope * above - own * rise) / above**2
 
-    return Hysteretic(first, part, float(share.x[0]), curve.x[1:], share.x[1:-1])
+    if any(np.min(part(j, np.linspace(places[j], places[j + 1], 1001))[1]) < 0 for j in range(len(places) - 1)):
+        raise ArithmeticError("a part of the first curve that falls between points")
+    return Hysteretic(first, part, places[0], first_curve.x[1:], marks)
 
 
 class Contact(Part):
