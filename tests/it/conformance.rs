@@ -43,6 +43,7 @@ fn describes(kind: &str, summary: &str, parameters: &[Parameter]) {
 fn words_of(range: Range) -> &'static [&'static str] {
     match range {
         Range::Finite => &[""],
+        Range::Angle => &["rad"],
         Range::NotZero => &["not zero"],
         Range::NonNegative => &["zero or positive"],
         Range::Positive => &["positive", "longer than", "later than", "above"],

@@ -14,7 +14,9 @@ impl Expression {
             Term::Negative(inner) => rate(inner).negative(),
             Term::Sum([left, right]) => rate(left).plus(&rate(right)),
             Term::Difference([left, right]) => rate(left).minus(&rate(right)),
-            Term::Product([left, right]) => rate(left).times(right).plus(&left.times(&rate(right))),
+            Term::Product([left, right]) | Term::Chain([left, right]) => {
+                rate(left).times(right).plus(&left.times(&rate(right)))
+            }
             Term::Quotient([left, right]) => {
                 let first = rate(left).over(right);
                 let second = rate(right);
@@ -24,8 +26,8 @@ impl Expression {
                 first.minus(&left.times(&second).over(&right.times(right)))
             }
             Term::Power(base, exponent) => {
-                let lower = base.to_the(&number(exponent - 1.0));
-                rate(base).times(&number(*exponent)).times(&lower)
+                let outer = number(*exponent).times(&base.to_the(&number(exponent - 1.0)));
+                if *exponent < 1.0 { rate(base).chained(&outer) } else { rate(base).times(&outer) }
             }
             Term::Raised([base, exponent]) => {
                 let of_exponent = rate(exponent).times(&base.called(Function::Ln));
@@ -34,7 +36,11 @@ impl Expression {
             }
             Term::Call(function, inner) => {
                 let outer = self.outer(*function, inner);
-                rate(inner).times(&outer)
+                match function {
+                    // What has poles: a slope is infinite where the function ends.
+                    Function::Sqrt | Function::Asin | Function::Acos => rate(inner).chained(&outer),
+                    _ => rate(inner).times(&outer),
+                }
             }
             Term::Pair(function, [left, right]) => {
                 let takes_left = match function {

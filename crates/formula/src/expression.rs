@@ -18,6 +18,8 @@ pub(crate) enum Term {
     Sum([Expression; 2]),
     Difference([Expression; 2]),
     Product([Expression; 2]),
+    /// A product, and 0 where the first one is zero, whatever the second one is there: a slope by the chain rule.
+    Chain([Expression; 2]),
     Quotient([Expression; 2]),
     /// To a constant power.
     Power(Expression, f64),
@@ -74,6 +76,7 @@ impl Expression {
             Term::Sum(parts)
             | Term::Difference(parts)
             | Term::Product(parts)
+            | Term::Chain(parts)
             | Term::Quotient(parts)
             | Term::Raised(parts)
             | Term::Pair(_, parts) => parts,
@@ -97,6 +100,7 @@ impl Expression {
             Term::Sum([left, right]) => inner(left).plus(&inner(right)),
             Term::Difference([left, right]) => inner(left).minus(&inner(right)),
             Term::Product([left, right]) => inner(left).times(&inner(right)),
+            Term::Chain([left, right]) => inner(left).chained(&inner(right)),
             Term::Quotient([left, right]) => inner(left).over(&inner(right)),
             Term::Power(base, exponent) => inner(base).to_the(&Self::number(*exponent)),
             Term::Raised([base, exponent]) => inner(base).to_the(&inner(exponent)),
@@ -148,6 +152,15 @@ impl Expression {
                 _ => Self::of(Term::Product([self.clone(), other.clone()])),
             },
             _ => Self::of(Term::Product([self.clone(), other.clone()])),
+        }
+    }
+
+    /// This slope of an inner function times that of the outer one, which may be infinite where this is zero.
+    pub(crate) fn chained(&self, outer: &Self) -> Self {
+        match (self.constant(), outer.constant()) {
+            (Some(_), _) => self.times(outer),
+            (_, Some(slope)) if slope.is_finite() => self.times(outer),
+            _ => Self::of(Term::Chain([self.clone(), outer.clone()])),
         }
     }
 

@@ -66,7 +66,7 @@ impl Formula {
         // Without variables there is nothing but a constant.
         let value = part.expression.constant().unwrap_or(f64::NAN);
         let (dimension, angle) = (part.dimension, part.angle);
-        Ok(Quantity { value, dimension, angle, is_celsius: false, is_gram: false })
+        Ok(Quantity { dimension, angle, ..Quantity::of(value, Dimension::NUMBER) })
     }
 
     /// The dimension of its value over `variables`.
@@ -207,7 +207,9 @@ fn combined(
             let dimension = match (left.dimension, right.dimension) {
                 (None, None) => None,
                 _ => Some(
-                    product(left.dimension(), right.dimension(), sign).ok_or_else(out_of_range)?,
+                    left.dimension()
+                        .times(right.dimension(), f64::from(sign))
+                        .ok_or_else(out_of_range)?,
                 ),
             };
             let expression = match operator {
@@ -217,32 +219,6 @@ fn combined(
             let angle = left.angle.saturating_add(sign * right.angle);
             Part { expression, dimension, angle }
         }
-    })
-}
-
-/// `left · right^power` of dimensions, `None` beyond their range.
-fn product(left: Dimension, right: Dimension, power: i8) -> Option<Dimension> {
-    let add = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
-    Some(Dimension {
-        mass: add(left.mass, right.mass)?,
-        length: add(left.length, right.length)?,
-        time: add(left.time, right.time)?,
-        temperature: add(left.temperature, right.temperature)?,
-    })
-}
-
-/// A dimension to a power; `None` where an exponent is not whole.
-fn to_power(base: Dimension, power: f64) -> Option<Dimension> {
-    let own = |exponent: i8| {
-        let raised = f64::from(exponent) * power;
-        #[expect(clippy::cast_possible_truncation, reason = "it is whole and in range")]
-        (raised.fract() == 0.0 && raised.abs() <= f64::from(i8::MAX)).then_some(raised as i8)
-    };
-    Some(Dimension {
-        mass: own(base.mass)?,
-        length: own(base.length)?,
-        time: own(base.time)?,
-        temperature: own(base.temperature)?,
     })
 }
 
@@ -259,7 +235,7 @@ fn raised(node: &Node, nodes: [&Node; 2], parts: [Part; 2]) -> Result<Part, Form
     let dimension = match (base.dimension, exponent.expression.constant()) {
         (None | Some(Dimension::NUMBER), _) => base.dimension,
         (Some(own), power) => {
-            let found = power.and_then(|power| to_power(own, power));
+            let found = power.and_then(|power| Dimension::NUMBER.times(own, power));
             let fault = || FormulaFault::Power { text: node.text(), base: own };
             Some(found.ok_or_else(|| node.error(fault()))?)
         }
@@ -292,7 +268,7 @@ fn called(
             None => (None, 0),
             Some(own) => {
                 let fault = || FormulaFault::Power { text: node.text(), base: own };
-                (Some(to_power(own, 0.5).ok_or_else(|| node.error(fault()))?), 0)
+                (Some(Dimension::NUMBER.times(own, 0.5).ok_or_else(|| node.error(fault()))?), 0)
             }
         },
         _ => {

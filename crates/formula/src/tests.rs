@@ -101,7 +101,11 @@ fn faults_say_what_is_wrong_and_where() {
         ("2 * 100 kPx", "`kPx` is not a known unit", 4..11),
         ("K h", "an operation, + - * / or ^, is expected here, not `h`", 2..3),
         ("sinh(h)", "`h` is a length (m), where a pure number has to stand", 5..6),
-        ("h^1.5", "`h^1.5` has no dimension: a length (m) cannot be raised to such a power", 0..5),
+        (
+            "h^1.2345",
+            "`h^1.2345` has no dimension: a length (m) cannot be raised to such a power",
+            0..8,
+        ),
         ("1 / (n - 3)", "`1 / (n - 3)` has no finite value", 0..11),
         ("sqr(2)", "`sqr` is not a function", 0..3),
         ("max(h)", "`max` takes 2 numbers, but here are 1", 0..6),

@@ -137,14 +137,21 @@ fn group(text: &str, is_name: impl Fn(&str) -> bool) -> Option<usize> {
     is_unit.then_some(end + 2)
 }
 
-/// The power behind a symbol: `^-2`, `²`, `2`.
+/// The power behind a symbol: `^-2`, `^1.5`, `^(2/3)`, `²`, `2`.
 fn power(text: &str) -> usize {
     const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
     let raised = text.find(|own: char| !RAISED.contains(own)).unwrap_or(text.len());
     if raised > 0 {
         return raised;
     }
-    let body = text.strip_prefix('^').map_or(text, |body| body.strip_prefix('-').unwrap_or(body));
-    let digits = body.find(|own: char| !own.is_ascii_digit()).unwrap_or(body.len());
+    if let Some(inner) = text.strip_prefix("^(") {
+        let is_inner = |own: char| own.is_ascii_digit() || "-./ ".contains(own);
+        let end = inner.find(|own: char| !is_inner(own)).unwrap_or(inner.len());
+        return if inner[end..].starts_with(')') { end + 3 } else { 0 };
+    }
+    let explicit = text.strip_prefix('^');
+    let body = explicit.map_or(text, |body| body.strip_prefix('-').unwrap_or(body));
+    let is_digit = |own: char| own.is_ascii_digit() || (own == '.' && explicit.is_some());
+    let digits = body.find(|own: char| !is_digit(own)).unwrap_or(body.len());
     if digits == 0 { 0 } else { text.len() - body.len() + digits }
 }

@@ -1,16 +1,18 @@
 //! Physical dimensions and their SI units.
 
+use crate::Exponent;
+
 /// Physical dimension as exponents of kilogram, metre, second and kelvin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of mass.
-    pub mass: i8,
+    pub mass: Exponent,
     /// Exponent of length.
-    pub length: i8,
+    pub length: Exponent,
     /// Exponent of time.
-    pub time: i8,
+    pub time: Exponent,
     /// Exponent of temperature.
-    pub temperature: i8,
+    pub temperature: Exponent,
 }
 
 impl Dimension {
@@ -45,7 +47,7 @@ impl Dimension {
     /// Compliance of a pad, the inverse of a stiffness \[m/N\].
     pub const COMPLIANCE: Self = Self::new(-1, 0, 2);
     /// Temperature \[K\], above absolute zero or as a difference.
-    pub const TEMPERATURE: Self = Self { mass: 0, length: 0, time: 0, temperature: 1 };
+    pub const TEMPERATURE: Self = Self { temperature: Exponent::whole(1), ..Self::NUMBER };
 
     const NAMED: [(Self, &'static str, &'static str); 16] = [
         (Self::NUMBER, "number", "1"),
@@ -68,18 +70,30 @@ impl Dimension {
 
     /// The dimension kg^mass m^length s^time, without temperature.
     pub const fn new(mass: i8, length: i8, time: i8) -> Self {
-        Self { mass, length, time, temperature: 0 }
+        let [mass, length, time] =
+            [Exponent::whole(mass), Exponent::whole(length), Exponent::whole(time)];
+        Self { mass, length, time, temperature: Exponent::ZERO }
     }
 
-    /// That of a quotient; exponents stay within their range.
+    /// That of a quotient.
     #[must_use]
-    pub const fn over(self, other: Self) -> Self {
+    pub fn over(self, other: Self) -> Self {
         Self {
-            mass: self.mass.saturating_sub(other.mass),
-            length: self.length.saturating_sub(other.length),
-            time: self.time.saturating_sub(other.time),
-            temperature: self.temperature.saturating_sub(other.temperature),
+            mass: self.mass - other.mass,
+            length: self.length - other.length,
+            time: self.time - other.time,
+            temperature: self.temperature - other.temperature,
         }
+    }
+
+    /// That of a product with a `power` of another one; `None` where an [`Exponent`] cannot be had.
+    pub fn times(self, other: Self, power: f64) -> Option<Self> {
+        Some(Self {
+            mass: self.mass.plus(other.mass, power)?,
+            length: self.length.plus(other.length, power)?,
+            time: self.time.plus(other.time, power)?,
+            temperature: self.temperature.plus(other.temperature, power)?,
+        })
     }
 
     /// All dimensions that have a name.
@@ -95,15 +109,17 @@ impl Dimension {
 
 /// What is a force, or one times a time, by powers of a length, such as the constant of a cubic spring: `N/m^3`.
 fn of_forces(dimension: Dimension) -> Option<String> {
-    let Dimension { mass: 1, length, time: -2..=-1, temperature: 0 } = dimension else {
+    let Dimension { mass, length, time, temperature } = dimension;
+    if mass != 1 || temperature != 0 || (time != -2 && time != -1) {
         return None;
-    };
-    let force = if dimension.time == -2 { "N" } else { "N s" };
-    let per = |power: i8| if power == 1 { "m".to_owned() } else { format!("m^{power}") };
-    Some(match length - 1 {
-        0 => force.to_owned(),
-        power @ 1.. => format!("{force} {}", per(power)),
-        power => format!("{force}/{}", per(-power)),
+    }
+    let force = if time == -2 { "N" } else { "N s" };
+    let per = |power: Exponent| if power == 1 { "m".to_owned() } else { format!("m^{power}") };
+    let power = length - 1;
+    Some(match power.value() {
+        0.0 => force.to_owned(),
+        0.0.. => format!("{force} {}", per(power)),
+        _ => format!("{force}/{}", per(-power)),
     })
 }
 
@@ -121,9 +137,9 @@ pub fn si_unit(dimension: Dimension) -> String {
         ("s", dimension.time),
         ("K", dimension.temperature),
     ];
-    let factor = |(unit, power): (&str, i8)| match power {
-        0 => None,
-        1 => Some(unit.to_owned()),
+    let factor = |(unit, power): (&str, Exponent)| match power {
+        Exponent::ZERO => None,
+        power if power == 1 => Some(unit.to_owned()),
         power => Some(format!("{unit}^{power}")),
     };
     powers.into_iter().filter_map(factor).collect::<Vec<_>>().join(" ")

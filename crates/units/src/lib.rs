@@ -2,12 +2,13 @@
 //!
 //! A quantity is a number and a unit. A unit is a product of symbols, separated by spaces, `*` or
 //! `·`; `/` divides by the one symbol, or the parenthesis, that follows it; powers are written
-//! `^2`, `²` or `2`. A number alone is in SI units. Everything is SI once it has been read.
+//! `^2`, `²` or `2`, and those that are no whole numbers `^1.5` or `^(2/3)`. A number alone is in SI units. Everything is SI once it has been read.
 //!
 //! Degrees Celsius (`"20 degC"`, `"20 °C"`) count from a point of their own. So they are read only
 //! where they are the whole unit, and what is read is a temperature and never a difference.
 
 mod dimension;
+mod exponent;
 mod format;
 mod nearest;
 mod parse;
@@ -15,6 +16,7 @@ mod shown;
 mod symbols;
 
 pub use dimension::{Dimension, si_unit};
+pub use exponent::Exponent;
 pub use format::{exact_quantity, format_quantity, format_short, tidy};
 pub use nearest::nearest;
 pub use parse::{Quantity, UnitError, parse_dimension, parse_quantity};

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::{
-    Dimension, STANDARD_GRAVITY,
+    Dimension, Exponent, STANDARD_GRAVITY,
     symbols::{self, Unit},
 };
 
@@ -19,6 +19,8 @@ pub struct Quantity {
     pub dimension: Option<Dimension>,
     /// Exponent of the angle in its unit: 1 for `rad` and `rad/s`, 0 for `Hz`.
     pub angle: i8,
+    /// Exponent of the amount of substance in its unit: 1 for `mol`, which counts as a number, −1 for `J/mol`.
+    pub amount: i8,
     /// Whether it was given in degrees Celsius, so that it is no difference of temperatures.
     pub is_celsius: bool,
     /// Whether its unit is `g` alone: the gram, but standard gravity where an acceleration is expected.
@@ -28,7 +30,8 @@ pub struct Quantity {
 impl Quantity {
     /// The quantity of this value in SI units.
     pub const fn of(value: f64, dimension: Dimension) -> Self {
-        Self { value, dimension: Some(dimension), angle: 0, is_celsius: false, is_gram: false }
+        let dimension = Some(dimension);
+        Self { value, dimension, angle: 0, amount: 0, is_celsius: false, is_gram: false }
     }
 
     /// What it is where this dimension is expected: `"250 g"` is an acceleration where one is.
@@ -138,6 +141,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, UnitError> {
         value,
         dimension: unit.map(|unit| unit.dimension),
         angle: unit.map_or(0, |unit| unit.angle),
+        amount: unit.map_or(0, |unit| unit.amount),
         is_celsius: false,
         is_gram: unit_text == "g",
     })
@@ -153,6 +157,7 @@ fn celsius(text: &str, number: &str) -> Result<Quantity, UnitError> {
         value,
         dimension: Some(Dimension::TEMPERATURE),
         angle: 0,
+        amount: 0,
         is_celsius: true,
         is_gram: false,
     })
@@ -245,7 +250,7 @@ fn split_number(text: &str) -> Result<(&str, &str), UnitError> {
 
 fn parse_unit(text: &str) -> Result<Unit, UnitError> {
     let malformed = || UnitError::Malformed { text: text.to_owned() };
-    let mut product = Unit { factor: 1.0, exponent: 0, dimension: Dimension::NUMBER, angle: 0 };
+    let mut product = Unit::ONE;
     // Sign of the power outside each open parenthesis, and that of the next symbol.
     let mut outer = vec![1_i8];
     let mut sign = 1_i8;
@@ -289,7 +294,8 @@ fn parse_unit(text: &str) -> Result<Unit, UnitError> {
                     meant: symbols::meant(word),
                 })?;
                 let (power, after) = split_power(after).ok_or_else(malformed)?;
-                product = times(product, factor, power * sign * around).ok_or_else(malformed)?;
+                let power = if sign * around < 0 { -power } else { power };
+                product = times(product, factor, power).ok_or_else(malformed)?;
                 (sign, rest, expects_factor) = (1, after, false);
             }
         }
@@ -308,36 +314,59 @@ fn split_symbol(text: &str) -> (&str, &str) {
 }
 
 /// The power after a symbol, 1 where there is none; `None` where it cannot be read.
-fn split_power(text: &str) -> Option<(i8, &str)> {
+fn split_power(text: &str) -> Option<(Exponent, &str)> {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let explicit = text.strip_prefix('^');
     let body = explicit.unwrap_or(text);
     let (sign, digits) =
-        body.strip_prefix(['-', '−', '⁻']).map_or((1, body), |digits| (-1, digits));
+        body.strip_prefix(['-', '−', '⁻']).map_or((1.0, body), |digits| (-1.0, digits));
+    if let Some(inner) = explicit.and_then(|body| body.strip_prefix('(')) {
+        let (inner, rest) = inner.split_once(')')?;
+        let (above, below) = inner.split_once('/').unwrap_or((inner, "1"));
+        let [above, below] = [above, below].map(|own| own.trim().parse::<f64>().ok());
+        return Some((Exponent::of(above? / below?)?, rest));
+    }
+    let end = digits.find(|own: char| !(own.is_ascii_digit() || own == '.'));
+    let decimal = &digits[..end.unwrap_or(digits.len())];
+    if explicit.is_some() && !decimal.is_empty() {
+        return Some((
+            Exponent::of(sign * decimal.parse::<f64>().ok()?)?,
+            &digits[decimal.len()..],
+        ));
+    }
     let digit = digits.chars().next().and_then(|c| {
         let raised = RAISED.iter().position(|&raised| raised == c);
         let value = raised.or_else(|| c.to_digit(10).map(|digit| digit as usize))?;
-        Some((i8::try_from(value).ok()?, c.len_utf8()))
+        Some((f64::from(u8::try_from(value).ok()?), c.len_utf8()))
     });
     match digit {
-        Some((value, length)) => Some((sign * value, &digits[length..])),
-        None if explicit.is_none() && sign == 1 => Some((1, text)),
+        Some((value, length)) => Some((Exponent::of(sign * value)?, &digits[length..])),
+        None if explicit.is_none() && sign > 0.0 => Some((Exponent::whole(1), text)),
         None => None,
     }
 }
 
-/// `unit · factor^power`, `None` where an exponent leaves its range.
-fn times(unit: Unit, factor: Unit, power: i8) -> Option<Unit> {
-    let add = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
+/// `unit · factor^power`, `None` where an exponent leaves its range, or a part of an angle or amount remains.
+fn times(unit: Unit, factor: Unit, power: Exponent) -> Option<Unit> {
+    let power = power.value();
+    let ten = f64::from(factor.exponent) * power;
+    let counted = |own: i8, other: i8| {
+        let sum = f64::from(own) + power * f64::from(other);
+        #[expect(clippy::cast_possible_truncation, reason = "it is whole and in range")]
+        (sum.fract() == 0.0 && sum.abs() <= f64::from(i8::MAX)).then_some(sum as i8)
+    };
+    #[expect(clippy::cast_possible_truncation, reason = "they are small, or whole")]
+    let (whole, tens) = (power as i32, ten.floor() as i32);
+    let raised = if power.fract() == 0.0 {
+        factor.factor.powi(whole)
+    } else {
+        factor.factor.powf(power) * 10_f64.powf(ten - ten.floor())
+    };
     Some(Unit {
-        factor: unit.factor * factor.factor.powi(i32::from(power)),
-        exponent: unit.exponent + factor.exponent * i32::from(power),
-        dimension: Dimension {
-            mass: add(unit.dimension.mass, factor.dimension.mass)?,
-            length: add(unit.dimension.length, factor.dimension.length)?,
-            time: add(unit.dimension.time, factor.dimension.time)?,
-            temperature: add(unit.dimension.temperature, factor.dimension.temperature)?,
-        },
-        angle: add(unit.angle, factor.angle)?,
+        factor: unit.factor * raised,
+        exponent: unit.exponent + tens,
+        dimension: unit.dimension.times(factor.dimension, power)?,
+        angle: counted(unit.angle, factor.angle)?,
+        amount: counted(unit.amount, factor.amount)?,
     })
 }

@@ -17,6 +17,14 @@ pub(crate) struct Unit {
     pub(crate) dimension: Dimension,
     /// Exponent of the angle: 1 for `rad` and `rad/s`, 0 for `Hz`.
     pub(crate) angle: i8,
+    /// Exponent of the amount of substance: 1 for `mol`.
+    pub(crate) amount: i8,
+}
+
+impl Unit {
+    /// That of pure numbers.
+    pub(crate) const ONE: Self =
+        Self { factor: 1.0, exponent: 0, dimension: Dimension::NUMBER, angle: 0, amount: 0 };
 }
 
 struct Symbol {
@@ -32,12 +40,17 @@ const fn unit(
     dimension: Dimension,
     takes_prefix: bool,
 ) -> Symbol {
-    Symbol { word, unit: Unit { factor, exponent, dimension, angle: 0 }, takes_prefix }
+    Symbol { word, unit: Unit { factor, exponent, dimension, ..Unit::ONE }, takes_prefix }
 }
 
 const fn angle(word: &'static str, factor: f64, takes_prefix: bool) -> Symbol {
-    let unit = Unit { factor, exponent: 0, dimension: Dimension::NUMBER, angle: 1 };
-    Symbol { word, unit, takes_prefix }
+    Symbol { word, unit: Unit { factor, angle: 1, ..Unit::ONE }, takes_prefix }
+}
+
+/// The mole, which counts as a number.
+const fn mole() -> Symbol {
+    let unit = Unit { factor: MOLE, exponent: 23, amount: 1, ..Unit::ONE };
+    Symbol { word: "mol", unit, takes_prefix: true }
 }
 
 const SYMBOLS: &[Symbol] = &[
@@ -56,7 +69,7 @@ const SYMBOLS: &[Symbol] = &[
     unit("Hz", 1.0, 0, Dimension::FREQUENCY, true),
     unit("g0", STANDARD_GRAVITY, 0, Dimension::ACCELERATION, false),
     unit("K", 1.0, 0, Dimension::TEMPERATURE, true),
-    unit("mol", MOLE, 23, Dimension::NUMBER, true),
+    mole(),
     unit("%", 1.0, -2, Dimension::NUMBER, false),
     angle("rad", 1.0, true),
     angle("deg", PI / 180.0, false),

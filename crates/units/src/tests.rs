@@ -143,7 +143,12 @@ fn values_are_written_in_handy_units() {
         (5e3, Dimension::VISCOSITY, 1, "5 kPa s"),
         (5e-8, Dimension::COMPLIANCE, 2, "50 nm/N"),
         (293.15, Dimension::TEMPERATURE, 5, "293.15 K"),
-        (5.0, Dimension { temperature: -1, ..Dimension::new(1, -1, 0) }, 1, "5 kg m^-1 K^-1"),
+        (
+            5.0,
+            Dimension { temperature: Exponent::whole(-1), ..Dimension::new(1, -1, 0) },
+            1,
+            "5 kg m^-1 K^-1",
+        ),
         (3e8, Dimension::new(1, -2, -2), 1, "3e8 N/m^3"),
         (4.0, Dimension::new(1, 3, -1), 1, "4 N s m^2"),
         (383.0, Dimension::FORCE, 2, "380 N"),
@@ -188,5 +193,33 @@ fn exact_text_comes_back_to_the_same_bits() {
         let back = parse_quantity(&text).unwrap().value;
         assert_eq!(back.to_bits(), tidy(value).to_bits(), "{text}");
         assert!(((back - value) / value).abs() < 4.5e-16, "{text}");
+    }
+}
+
+#[test]
+fn powers_that_are_no_whole_numbers_are_read_and_written() {
+    let half = |length: f64| Dimension {
+        length: Exponent::of(length).unwrap(),
+        ..Dimension::new(1, 0, -2)
+    };
+    let close = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-15, "{found}");
+    let hertz = parse_quantity("2.75e9 N/m^1.5").unwrap();
+    assert_eq!(hertz.dimension, Some(half(-0.5)));
+    close(hertz.value, 2.75e9);
+    // 1 kN/mm^1.5 is 10³ N over 10^−4.5 m^1.5; a Tsuji damping has m^1.25.
+    close(value("3 kN/mm^1.5"), 3.0 * 10_f64.powf(7.5));
+    close(value("3 kN/mm^(3/2)"), 3.0 * 10_f64.powf(7.5));
+    close(value("2 m^(-1/3)"), 2.0);
+    assert_eq!(
+        parse_dimension("N s/m^1.25"),
+        Ok(Dimension { time: Exponent::whole(-1), ..half(-0.25) })
+    );
+    for text in ["N/m^1.5", "N m^0.5", "N/m^0.25", "kg m^(1/3)", "N/m^2.35"] {
+        let dimension = parse_dimension(text).unwrap();
+        assert_eq!(si_unit(dimension), text);
+        assert_eq!(parse_dimension(&si_unit(dimension)), Ok(dimension));
+    }
+    for text in ["1 N/m^1.2345", "1 m^", "1 m^(1/0)", "1 m^(1", "1 m^1.2.3", "1 deg^0.5"] {
+        assert!(parse_quantity(text).is_err(), "{text}");
     }
 }

@@ -41,11 +41,6 @@ pub(super) fn check_quantity(text: &str) -> Result<(), String> {
         }
         Ok(quantity) => {
             let dimension = quantity.dimension.unwrap_or(Dimension::NUMBER);
-            let Dimension { mass, length, time, temperature } = dimension;
-            // A power is one digit.
-            if [mass, length, time, temperature].iter().any(|own| own.abs() > 9) {
-                return Ok(());
-            }
             let shown = format_quantity(quantity.value, dimension, 17);
             let again = parse_quantity(&shown).map_err(|error| format!("`{shown}`: {error}"))?;
             let off = (again.value - quantity.value).abs();

@@ -6,6 +6,7 @@ use dashpot_network::{
     Network,
     parameters::{Dimension, InvalidParameter},
 };
+use dashpot_units::Exponent;
 
 use super::walk::{Visit, walk, walk_values};
 use crate::measures::Measure;
@@ -29,10 +30,10 @@ impl Scale {
 
     /// The factor of quantities of a dimension.
     pub fn of(&self, dimension: Dimension) -> f64 {
-        let power = |own: f64, exponent: i8| own.powi(i32::from(exponent));
-        power(self.mass, dimension.mass)
-            * power(self.length, dimension.length)
-            * power(self.time, dimension.time)
+        let raised = |own: f64, exponent: Exponent| power(own, exponent.value());
+        raised(self.mass, dimension.mass)
+            * raised(self.length, dimension.length)
+            * raised(self.time, dimension.time)
     }
 
     /// The factor of a measure's values; that of the severity index and its like, which are in parts
@@ -159,7 +160,7 @@ impl Basis {
 }
 
 fn powers(dimension: Dimension) -> [f64; 4] {
-    [dimension.mass, dimension.length, dimension.time, dimension.temperature].map(f64::from)
+    [dimension.mass, dimension.length, dimension.time, dimension.temperature].map(Exponent::value)
 }
 
 /// `value` to a power, to the last digits where that is a whole number.

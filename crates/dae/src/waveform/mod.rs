@@ -24,6 +24,8 @@ pub struct Given {
     pub to: f64,
     /// How often the values have been integrated since.
     pub integrals: u32,
+    /// Whether they are those of a formula that is followed up to an end, and not of a table.
+    pub is_formula: bool,
     /// Whether it must not be used at other times; else nobody has said what holds there.
     pub is_strict: bool,
 }

@@ -25,6 +25,8 @@ pub enum Unsaid {
 pub struct HeldTable {
     /// The load, or the node that is moved.
     pub name: String,
+    /// Whether it is a formula with an end, and not a table.
+    pub is_formula: bool,
     /// What the table is of: a force, a displacement or an acceleration.
     pub dimension: Dimension,
     /// What is told.
@@ -43,11 +45,13 @@ impl HeldTable {
         let time = show(self.time, Dimension::TIME);
         let run = show(self.duration, Dimension::TIME);
         let value = show(self.value, self.dimension);
-        let table = match self.dimension {
-            Dimension::FORCE => format!("the table of the load `{}`", self.name),
-            Dimension::LENGTH => format!("the table of the motion of `{}`", self.name),
-            _ => format!("the table of the acceleration of `{}`", self.name),
+        let of = match self.dimension {
+            Dimension::FORCE => "the load",
+            Dimension::LENGTH => "the motion of",
+            _ => "the acceleration of",
         };
+        let what = if self.is_formula { "formula" } else { "table" };
+        let table = format!("the {what} of {of} `{}`", self.name);
         match self.what {
             Unsaid::First => {
                 format!(
@@ -72,6 +76,10 @@ impl HeldTable {
     /// What to write instead.
     pub fn help(&self) -> &'static str {
         match self.what {
+            _ if self.is_formula => {
+                "let `until` reach the end of the run; there `min(t, 5 ms)` in place of `t` is what holds a \
+                 value from 5 ms on, and a sum or product with `min` or `max` what ends it"
+            }
             Unsaid::Stops(_) => {
                 "let the motion come to rest, or the run end with it; `outside = \"hold\"` says that it \
                  is meant"
@@ -119,9 +127,18 @@ pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, N
             (value.abs() > COUNTS * largest(pieces, order)).then_some(value)
         };
         let (order, name) = (given.integrals, || name.clone());
+        let is_formula = given.is_formula;
         if let Some(value) = counts(&pieces[0], order, given.from).filter(|_| is_late) {
             let (what, time) = (Unsaid::First, given.from);
-            held.push(HeldTable { name: name(), dimension, what, time, value, duration });
+            held.push(HeldTable {
+                name: name(),
+                is_formula,
+                dimension,
+                what,
+                time,
+                value,
+                duration,
+            });
         }
         if !is_short {
             continue;
@@ -134,6 +151,7 @@ pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, N
         };
         held.extend(what.map(|what| HeldTable {
             name: name(),
+            is_formula,
             dimension,
             what,
             time,

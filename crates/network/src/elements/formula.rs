@@ -157,7 +157,7 @@ impl Element for Formula {
         let (at, beyond) = self.place(deformation);
         let [stiffness, damping] = self.slopes(at, rate);
         // A root of what is zero has no slope, though what it is multiplied by may give the product one.
-        if stiffness.is_nan() || damping.is_nan() {
+        if !(stiffness.is_finite() && damping.is_finite()) {
             return central_differences(self, deformation, rate);
         }
         let stiffness = if beyond == 0.0 { stiffness } else { self.slopes(at, 0.0)[0] };

@@ -265,6 +265,11 @@ impl Phases for Foundation {
     fn law(&self, phase: Phase) -> PhaseLaw {
         let pressed = |deepest| PhaseLaw::Element(Arc::new(Pressed { pad: self.clone(), deepest }));
         let is_plain = self.law.law() != Law::Phased;
+        if let (true, Some(_), Some(column)) =
+            (self.face.is_flat(), self.law.two_curves(), self.law.phases())
+        {
+            return column.law(phase);
+        }
         match (phase.index, self.law.two_curves()) {
             (hysteresis::UNLOADING, Some(_)) if phase.memory > 0.0 => pressed(Some(phase.memory)),
             (PRESSED, None) if self.face.is_flat() && is_plain => {

@@ -282,8 +282,8 @@ pub mod words {
             TemperatureDifference, TimeFormula, TimeTable, Window,
         },
         Range::{
-            AboveAbsoluteZero, AtLeastOne, Count, Finite, NonNegative, NotZero, Part, PartBelowOne,
-            Positive, PositivePart,
+            AboveAbsoluteZero, Angle, AtLeastOne, Count, Finite, NonNegative, NotZero, Part,
+            PartBelowOne, Positive, PositivePart,
         },
     };
 }

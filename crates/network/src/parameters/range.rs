@@ -10,6 +10,8 @@ use super::InvalidParameter;
 pub enum Range {
     /// Any.
     Finite,
+    /// Any, of an angle \[rad\]; other numbers are no angles.
+    Angle,
     /// All but 0.
     NotZero,
     /// ≥ 0.
@@ -34,7 +36,7 @@ impl Range {
     /// The range in words.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Finite => "finite",
+            Self::Finite | Self::Angle => "finite",
             Self::NotZero => "finite and not zero",
             Self::NonNegative => "zero or positive, and finite",
             Self::Positive => "positive and finite",
@@ -50,9 +52,9 @@ impl Range {
     /// Whether a number is in it.
     pub fn contains(self, number: f64) -> bool {
         number.is_finite()
-            && (!number.is_subnormal() || self == Self::Finite)
+            && (!number.is_subnormal() || matches!(self, Self::Finite | Self::Angle))
             && match self {
-                Self::Finite => true,
+                Self::Finite | Self::Angle => true,
                 Self::NotZero => number != 0.0,
                 Self::NonNegative => number >= 0.0,
                 Self::Positive | Self::AboveAbsoluteZero => number > 0.0,

@@ -84,7 +84,8 @@ impl WaveformKind for Formula {
                 invalid("a formula that 5000 cubics can follow up to `until`", String::new())
             })?;
         parts.push(Piece { start: until, value: value_at(&function, until), ..Piece::default() });
-        let given = Given { from: 0.0, to: until, integrals: 0, is_strict: false };
+        let given =
+            Given { from: 0.0, to: until, integrals: 0, is_strict: false, is_formula: true };
         pieces("until", until, parts).map(|own| own.given_at(given))
     }
 }

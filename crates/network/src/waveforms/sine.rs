@@ -31,7 +31,7 @@ parameters! {
         /// frequency [Hz], positive
         pub frequency: f64 = Quantity(Dimension::FREQUENCY), range Positive;
         /// phase at t = 0 [rad]
-        pub phase: f64 = Quantity(Dimension::NUMBER), default "0";
+        pub phase: f64 = Quantity(Dimension::NUMBER), default "0", range Angle;
     }
     sample { amplitude: 3.0, frequency: 2.0, phase: 0.5 }
 }

@@ -86,7 +86,8 @@ impl WaveformKind for Table {
         }
         parts.push(Piece { start: last_time, value: held(last), ..Piece::default() });
         let is_strict = self.outside == Some(Outside::Error);
-        let given = Given { from: first_time, to: last_time, integrals: 0, is_strict };
+        let given =
+            Given { from: first_time, to: last_time, integrals: 0, is_strict, is_formula: false };
         let waveform = pieces("points", last_time, parts)?;
         let is_told = matches!(self.outside, Some(Outside::Hold | Outside::Zero));
         Ok(if is_told { waveform } else { waveform.given_at(given) })

@@ -192,7 +192,7 @@ impl<'d> KindReader<'d> {
             }
             return Some(if key == SIZE[0] { pad.thickness } else { pad.area });
         }
-        let around = || self.size.around().filter(|_| key == SIZE[0]);
+        let around = || self.size.around(key, place);
         let size = match (entry, self.size.beside(key).or_else(around)) {
             (Some(entry), _) => {
                 let value = self.value(parameter, &entry.item)?.number()?;

@@ -107,7 +107,13 @@ impl<'d> KindReader<'d> {
             &fault,
             Fault::Invalid(invalid) if ["temperature", "reference"].contains(&invalid.parameter)
         );
+        let is_stiffness =
+            matches!(&fault, Fault::Invalid(invalid) if invalid.parameter == "stiffness");
         match self.quantities.peek(item) {
+            Some(0.0) if is_stiffness => fault.with_help(
+                "a part without stiffness is left out; a force that is the same at every deformation is a load on \
+                 each of its ends, `force = { constant = … }`",
+            ),
             Some(value) if is_temperature && self.quantities.is_bare(item) => fault.with_help(
                 format!("a bare number is in K; write it with its unit: \"{value} degC\""),
             ),

@@ -1,7 +1,7 @@
 //! The value of one parameter, as its kind says.
 
 use dashpot_network::parameters::{
-    Dimension, Formula, Parameter, ParameterKind, Value, WindowWish,
+    Dimension, Formula, Parameter, ParameterKind, Range, Value, WindowWish,
 };
 
 use super::{is_points, parameters::KindReader};
@@ -28,6 +28,9 @@ impl KindReader<'_> {
         let faults = self.quantities.faults;
         let what = || format!("`{}`", parameter.name);
         match parameter.kind {
+            ParameterKind::Quantity(dimension) if parameter.range == Range::Angle => {
+                self.quantities.of_angle(parameter.name).read(item, dimension).map(Value::Number)
+            }
             ParameterKind::Quantity(dimension) => {
                 self.quantity(parameter.name, item, dimension).map(Value::Number)
             }

@@ -127,8 +127,10 @@ impl<'d> ContextReader<'d> {
         context.size.is_faulty = [false; 2];
         let is_element = site.other_keys.contains(&"between");
         if law.key == ModelSection::Materials.word() {
-            if given[0].is_none() {
-                beside[0] = around.around();
+            for at in [0, 1] {
+                if given[at].is_none() && !is_faulty[at] {
+                    beside[at] = beside[at].or_else(|| around.around(SIZE[at], law.item.place));
+                }
             }
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
@@ -151,6 +153,7 @@ impl<'d> ContextReader<'d> {
             context.pressed_by = None;
             if is_element {
                 context.size.around = beside[0].take();
+                context.size.around_area = beside[1].take().map(|size| size.value);
             }
             let sizes = SIZE.into_iter().zip(given).filter(|_| !is_element);
             for (key, entry) in sizes.chain([pressed_by]) {

@@ -16,7 +16,9 @@ use std::{
 
 use dashpot_network::{
     InnerPad, Model,
+    elements::{ELEMENTS, Indenter},
     memory::{MOST_BYTES, PART_BYTES},
+    parameters::{Kind as _, registered},
 };
 use dashpot_rheology::{MOST_LEVELS, Tree};
 
@@ -31,9 +33,9 @@ use self::{
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::model_words,
-    quantities::basis::{Basis, Extent, Pad},
+    quantities::basis::{Basis, Extent, Pad, SIZE, is_sized},
     text::{
-        document::Item,
+        document::{Content, Entry, Item},
         library::{
             Library,
             models::{MODEL_SECTIONS, ModelSection, Reference},
@@ -231,6 +233,11 @@ impl<'d> ModelReader<'d> {
         descent: &mut Descent,
     ) -> Option<ReadBranch<'d>> {
         self.count(1, site.place)?;
+        // How several parts side by side share an area is for them to say.
+        let mut context = context;
+        if word == "parallel" && items.iter().map(without_area).sum::<usize>() > 1 {
+            context.size.around_area = None;
+        }
         let branches = items.iter().map(|item| self.read(&site.branch(item, context), descent));
         let branches = branches.collect::<Option<Vec<_>>>()?;
         descent.pads.read(1, Extent::UNKNOWN);
@@ -326,4 +333,24 @@ impl<'d> ModelReader<'d> {
             .error(place, Fault::TooManyParts { model, parts: all, bytes, limit: MOST_BYTES });
         None
     }
+}
+
+/// How many parts of a branch of a `parallel` need an area and say none.
+fn without_area(branch: &Item) -> usize {
+    let entries = branch.table().unwrap_or(&[]);
+    if entries.iter().any(|own| own.key == SIZE[1] || own.key == Indenter::KIND) {
+        return 0;
+    }
+    let of = |own: &Entry| match own.key.as_str() {
+        "parallel" => match &own.item.value {
+            Content::List(items) => items.iter().map(without_area).sum(),
+            _ => 0,
+        },
+        "material" => 1,
+        word => registered(ELEMENTS, word).map_or(0, |kind| {
+            let inner = own.item.table().unwrap_or(&[]).iter().any(|own| own.key == SIZE[1]);
+            usize::from(is_sized(kind.parameters) && !inner)
+        }),
+    };
+    entries.iter().map(of).sum()
 }

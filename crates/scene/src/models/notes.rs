@@ -142,10 +142,14 @@ impl fmt::Display for Remark {
             ),
             Self::WeightLeftOut { energy, part } => write!(
                 f,
-                "gravity is off: if the blow goes down, its weight adds up to {} over the thickness, {:.1} % of \
+                "gravity is off: if the blow goes down, its weight adds up to {} over the thickness, {} \
                  the energy; `gravity = {{}}` under [effects] counts it",
                 format_short(*energy, Dimension::ENERGY, 3),
-                100.0 * part
+                match *part {
+                    ..10.0 => format!("{:.1} % of", 100.0 * part),
+                    10.0..1e3 => format!("{part:.0} times"),
+                    _ => "far more than".to_owned(),
+                }
             ),
             Self::Curve(change) => write!(f, "{change}"),
             Self::ConstantArea { standard, dome } => {

@@ -11,7 +11,7 @@ use dashpot_network::parameters::{
 use crate::{
     diagnostics::{Faults, fault::Fault},
     text::source::Place,
-    units::{Quantity, format_short},
+    units::{Exponent, Quantity, format_short},
 };
 
 /// Area \[m²\].
@@ -219,7 +219,8 @@ pub(crate) const SIZE: [&str; 2] = ["thickness", "area"];
 /// The powers f of the force and d of the deformation in a dimension N^f m^d s^k. A pressure is a
 /// stress in a model, too, and has nothing of a pad.
 pub(crate) fn powers(dimension: Dimension) -> [i32; 2] {
-    let [mass, length] = [dimension.mass, dimension.length].map(i32::from);
+    // Those of parameters are whole numbers.
+    let [mass, length] = [dimension.mass, dimension.length].map(Exponent::truncated);
     if mass == -length { [0, 0] } else { [mass, length - mass] }
 }
 
@@ -242,6 +243,8 @@ pub(crate) struct EnclosingPad {
     pub(crate) is_faulty: [bool; 2],
     /// The thickness of the element of which the law is a part.
     pub(crate) around: Option<Size>,
+    /// Its area \[m²\].
+    pub(crate) around_area: Option<f64>,
     /// Whether it is one of several parts in a row, which are thinner than the whole.
     pub(crate) in_row: bool,
 }
@@ -252,9 +255,11 @@ impl EnclosingPad {
         SIZE.iter().position(|known| *known == key).and_then(|at| self.beside[at])
     }
 
-    /// The thickness of the element around the law, where the law lies between the same ends.
-    pub(crate) fn around(&self) -> Option<Size> {
-        self.around.filter(|_| !self.in_row)
+    /// The size of the element around the law, which stands at `place`, under one of the keys [`SIZE`], where the law lies
+    /// between the same ends.
+    pub(crate) fn around(&self, key: &str, place: Place) -> Option<Size> {
+        let area = self.around_area.map(|value| Size { value, place });
+        if key == SIZE[0] { self.around } else { area }.filter(|_| !self.in_row)
     }
 
     /// What is wrong where `owner` has no size of its own under this key.
@@ -266,7 +271,7 @@ impl EnclosingPad {
         let example = if key == SIZE[0] { "2 cm" } else { "100 cm^2" };
         let what = if self.in_row {
             "each part of a `series` has a thickness and an area of its own, beside its law"
-        } else if self.around().is_some() && key == SIZE[1] {
+        } else if self.around.is_some() && key == SIZE[1] {
             "each of several parts side by side has an area of its own, in the table of its law"
         } else {
             "a material becomes a pad by its thickness and area"

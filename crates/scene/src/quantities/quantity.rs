@@ -103,6 +103,8 @@ pub(crate) enum Subject<'d> {
     Key(&'d str),
     /// Nothing is said: it may have any size, or others look at it.
     Unwatched,
+    /// By its key, as an angle \[rad\].
+    Angle(&'d str),
     /// Nothing is said of an index either, which is a number to people, whatever its dimension is.
     Index,
 }
@@ -138,6 +140,11 @@ const SHARE_DIGITS: usize = 7;
 pub(crate) const INDEX_HELP: &str = "an index is written without a unit, for example `700`";
 
 impl<'d> Quantities<'d> {
+    /// Those of a key that are angles.
+    pub(crate) fn of_angle(self, key: &'d str) -> Self {
+        Self { subject: Subject::Angle(key), ..self }
+    }
+
     /// Those of a key.
     pub(crate) fn of(self, key: &'d str) -> Self {
         Self { subject: Subject::Key(key), ..self }
@@ -281,7 +288,7 @@ impl<'d> Quantities<'d> {
     pub(crate) fn warn(self, item: &Item, dimension: Dimension, value: f64) {
         let key = match self.subject {
             Subject::Unwatched | Subject::Index => return,
-            Subject::Key(key) => key,
+            Subject::Key(key) | Subject::Angle(key) => key,
             Subject::Value => "",
         };
         let fault = if self.is_bare(item) {
@@ -417,6 +424,14 @@ impl<'d> Quantities<'d> {
                 }
                 _ => fault,
             };
+            self.faults.error(item.place, self.traced(item, fault));
+            return None;
+        }
+        let is_angle = quantity.angle != 0 && !matches!(self.subject, Subject::Angle(_));
+        if expected == Dimension::NUMBER && (is_angle || quantity.amount != 0) {
+            let what = if is_angle { "an angle" } else { "an amount of substance" };
+            let message = format!("`{}` is {what}; a pure number is expected here", shown());
+            let fault = Fault::odd(message, "write the number without a unit");
             self.faults.error(item.place, self.traced(item, fault));
             return None;
         }

@@ -1,5 +1,6 @@
 //! Tests of the whole way from text to scene.
 
+mod alternatives;
 mod arithmetic;
 mod curves;
 mod effects;
