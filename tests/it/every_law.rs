@@ -40,8 +40,7 @@ fn indenters() -> [(&'static str, Indenter); 4] {
             pad_radius: None,
         }
     };
-    [Shape::Sphere, Shape::Dome, Shape::Cylinder, Shape::Flat]
-        .map(|shape| (shape.word(), of(shape)))
+    [Sphere, Dome, Cylinder, Flat].map(|shape| (shape.word(), of(shape)))
 }
 
 /// Every element of the register as text, and every one that a body may press under every shape.

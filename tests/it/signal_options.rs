@@ -43,6 +43,9 @@ const KINDS: [(&str, &[(&str, f64)]); 8] = [
     ("no-unit", &[("acc", 100.0)]),
 ];
 
+/// The option, a base of others, the option with its value, and what it does to each kind of record.
+type Row = (&'static str, Vec<&'static str>, Vec<&'static str>, [Does; 8]);
+
 #[test]
 fn every_option_does_something_or_is_refused_by_name() {
     use Does::{Refused as N, Something as Y};
@@ -52,7 +55,7 @@ fn every_option_does_something_or_is_refused_by_name() {
     let mass = ["--velocity", "3.2 m/s", "--mass", "4 kg"];
     // The options, the name of the one that is looked at, and what it does to each kind: acceleration, force, both, loop,
     // axes, velocity, displacement, no unit. A base of options stands beside where the option needs others.
-    let rows: Vec<(&str, Vec<&str>, Vec<&str>, [Does; 8])> = vec![
+    let rows: Vec<Row> = vec![
         ("--velocity", with(&[]), with(&velocity), [Y, N, Y, N, N, N, N, Y]),
         ("--velocity", with(&[]), with(&mass), [Y, Y, Y, Y, N, N, N, Y]),
         ("--mass", with(&velocity), with(&["--mass", "4 kg"]), [Y, Y, Y, Y, N, N, N, Y]),

@@ -265,7 +265,11 @@ fn no_text_of_a_file_becomes_a_style_or_turns_around() {
     const LIVE: [char; 7] =
         ['\u{fdd0}', '\u{fdd3}', '\u{fdef}', '\u{202e}', '\u{2066}', '\u{1b}', '\u{feff}'];
     let all: String = LIVE.iter().collect();
-    let escaped: String = LIVE.iter().map(|own| format!("\\u{:04x}", u32::from(*own))).collect();
+    let escaped: String = LIVE
+        .iter()
+        .flat_map(|own| format!("\\u{:04x}", u32::from(*own)).into_bytes())
+        .map(char::from)
+        .collect();
     let room = TempDir::new().unwrap();
     let text_of = format!(
         "title = \"{escaped}error: your disk is full\"\n[nodes]\nhead = {{ mass = \"5 kg\", velocity = \"4 m/s\" }}\n\

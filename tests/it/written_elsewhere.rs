@@ -1,6 +1,6 @@
 //! Scenes that commands write into other folders: read again from there, they have the same numbers.
 
-use std::{fs, path::Path, process::Output};
+use std::{fmt::Write as _, fs, path::Path, process::Output};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -33,7 +33,7 @@ fn rising(random: &mut Random, heading: &str, end: [f64; 2]) -> String {
     for at in 1..=count {
         let share = at as f64 / count as f64;
         let bend = random.within(1.0, 2.5);
-        rows += &format!("{},{}\n", end[0] * share, end[1] * share.powf(bend));
+        _ = writeln!(rows, "{},{}", end[0] * share, end[1] * share.powf(bend));
     }
     rows
 }
