@@ -39,7 +39,7 @@ pressed-by = { shape = "sphere", radius = "85 mm", pad-radius = "-110 mm" }
 [limits]
 head.peak-acceleration = "250 g"
 [run]
-duration = "20 ms"
+duration = "60 ms"
 "#;
 
 fn written(text: &str) -> (TempDir, String) {
