@@ -127,11 +127,9 @@ impl<'d> ContextReader<'d> {
         context.size.is_faulty = [false; 2];
         let is_element = site.other_keys.contains(&"between");
         if law.key == ModelSection::Materials.word() {
-            for at in [0, 1] {
-                if given[at].is_none() && !is_faulty[at] {
-                    beside[at] = beside[at].or_else(|| around.around(SIZE[at], law.item.place));
-                }
-            }
+            let passed = |at: usize| around.around(SIZE[at], law.item.place);
+            let lacks = |at: usize| given[at].is_none() && !is_faulty[at];
+            beside = [0, 1].map(|at| beside[at].or_else(|| passed(at).filter(|_| lacks(at))));
             for (key, (entry, size)) in SIZE.into_iter().zip(given.into_iter().zip(beside)) {
                 match size {
                     Some(size) => around.check(key, size, self.faults),

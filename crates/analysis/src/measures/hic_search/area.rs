@@ -36,6 +36,8 @@ pub(super) struct Area<'a> {
     borders: Vec<f64>,
     /// Parts of panels on which the signal keeps its sign, in order of time.
     parts: Vec<Part<'a>>,
+    /// Where they begin \[s\], by which they are found.
+    starts: Vec<f64>,
     largest: f64,
 }
 
@@ -93,13 +95,10 @@ impl<'a> Area<'a> {
         let mut borders = jumps;
         borders.extend([window.0, window.1]);
         borders.sort_by(f64::total_cmp);
-        Self {
-            sense,
-            knots,
-            borders,
-            parts: parts(signal, window, &zeros),
-            largest: signal.absolute_maximum(window).value,
-        }
+        let parts = parts(signal, window, &zeros);
+        let starts = parts.iter().map(|part| part.start).collect();
+        let largest = signal.absolute_maximum(window).value;
+        Self { sense, knots, borders, parts, starts, largest }
     }
 
     /// The same in another sense.
@@ -115,8 +114,8 @@ impl<'a> Area<'a> {
             own
         });
         let parts = turned.collect();
-        let (knots, borders) = (self.knots.clone(), self.borders.clone());
-        Self { sense, knots, borders, parts, largest: self.largest }
+        let [knots, borders, starts] = [&self.knots, &self.borders, &self.starts].map(Vec::clone);
+        Self { sense, knots, borders, parts, starts, largest: self.largest }
     }
 
     /// That of a signal that is positive in the window and rises to one place, if any, and falls behind it.
@@ -124,13 +123,10 @@ impl<'a> Area<'a> {
         let mut knots = vec![window.0, top, window.1];
         knots.dedup();
         let sense = Sense::Magnitude;
-        Self {
-            sense,
-            knots,
-            borders: vec![window.0, window.1],
-            parts: parts(signal, window, &[]),
-            largest: signal.value(top),
-        }
+        let parts = parts(signal, window, &[]);
+        let starts = parts.iter().map(|part| part.start).collect();
+        let borders = vec![window.0, window.1];
+        Self { sense, knots, borders, parts, starts, largest: signal.value(top) }
     }
 
     /// Whether the signal has both signs in the window, beyond rounding.
@@ -173,7 +169,7 @@ impl<'a> Area<'a> {
 
     /// The value at a time at which it does not jump.
     pub(super) fn height(&self, t: f64) -> f64 {
-        let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+        let at = self.starts.partition_point(|start| *start <= t).saturating_sub(1);
         self.parts.get(at).map_or(0.0, |part| self.sense.of(part.panel.value(t)))
     }
 
@@ -181,8 +177,8 @@ impl<'a> Area<'a> {
     /// it is monotone between the ends, and on different sides of the level there.
     pub(super) fn around(&self, level: f64, [first, last]: [(f64, f64); 2]) -> [(f64, f64); 2] {
         let rises = last.1 > first.1;
-        let from = self.parts.partition_point(|part| part.start <= first.0);
-        let to = self.parts.partition_point(|part| part.start < last.0);
+        let from = self.starts.partition_point(|start| *start <= first.0);
+        let to = self.starts.partition_point(|start| *start < last.0);
         let inside = self.parts.get(from..to).unwrap_or_default();
         let at = inside.partition_point(|part| (part.height < level) == rises);
         let place = |part: &Part<'_>| (part.start, part.height);
@@ -214,7 +210,7 @@ impl<'a> Area<'a> {
     /// What counts as area between two times, and what counts against it.
     fn areas(&self, from: f64, to: f64) -> [f64; 2] {
         let until = |t: f64| {
-            let at = self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+            let at = self.starts.partition_point(|start| *start <= t).saturating_sub(1);
             self.parts.get(at).map_or([0.0; 2], |part| part.areas_until(t))
         };
         let (from, to) = (until(from), until(to));
@@ -224,7 +220,7 @@ impl<'a> Area<'a> {
     /// Bounds of the value between two times on one monotone piece; from the right at the first, from
     /// the left at the second.
     pub(super) fn range(&self, from: f64, to: f64) -> Range {
-        let panels = |t: f64| self.parts.partition_point(|part| part.start <= t).saturating_sub(1);
+        let panels = |t: f64| self.starts.partition_point(|start| *start <= t).saturating_sub(1);
         let value = |at: usize, t: f64| {
             self.parts.get(at).map_or(0.0, |own| self.sense.of(own.panel.value(t)))
         };

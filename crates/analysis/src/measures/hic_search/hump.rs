@@ -5,16 +5,19 @@
 //! `V^2.5/T^1.5` is therefore no larger than on the two lines up to where they meet. On a straight line with the area
 //! `a + c T`, `a ≥ 0`, it falls up to `T = 1.5 a/c` and rises behind, and so is largest at the ends of any stretch: at one
 //! of the levels, or where the lines meet. This bound exceeds the best by the square of what lies between the levels, and
-//! they are divided until it does so no more. Above 0.6 times the top the criterion falls with the level (`c` is above 0.6
-//! times the mean), so no level there is asked for. There may be several levels at which it is locally largest: a peak with
-//! a long shoulder has two.
+//! they are divided until it does so no more. Where all levels between two are below 0.6 times the least mean, or above 0.6
+//! times the largest, the criterion is monotone (means rise with the level), and no bound is needed; above 0.6 times the
+//! top it falls with the level, so no level there is asked for. There may be several levels at which it is locally
+//! largest: a peak with a long shoulder has two.
 
 use dashpot_numerics::roots::false_position;
 
 use super::{Optimum, RESOLUTION, area::Area, criterion};
 
 /// Levels that are looked at first.
-const LEVELS: usize = 8;
+const LEVELS: usize = 4;
+/// Where between the best level and another one the next one is looked at.
+const BESIDE: f64 = 0.75;
 /// Pairs of levels that are divided at most.
 const MOST_PAIRS: usize = 2000;
 /// How near the signal is to a level at the ends of its interval, in parts of its range, and how near levels come to
@@ -55,7 +58,9 @@ impl Cut {
         let ends = self.value().max(higher.value());
         let apart = higher.level - self.level;
         let longer = self.length() - higher.length();
-        if apart <= 0.0 || longer <= 0.0 {
+        // Means rise with the level: the criterion rises all the way, or falls.
+        let is_steady = higher.level <= self.level - self.slack() || higher.slack() >= apart;
+        if apart <= 0.0 || longer <= 0.0 || is_steady {
             return ends;
         }
         let beyond = (self.area - higher.area - self.level * longer) / apart;
@@ -156,7 +161,13 @@ impl<'h, 'a> Hump<'h, 'a> {
                 most = most.max(bound);
                 continue;
             }
-            let cut = self.cut(0.5 * (low.level + high.level), near);
+            // Beside the best level the rest is told from it by its sign.
+            let part = match value {
+                value if high.value() >= value => BESIDE,
+                value if low.value() >= value => 1.0 - BESIDE,
+                _ => 0.5,
+            };
+            let cut = self.cut(low.level + part * (high.level - low.level), near);
             if cut.value() > value {
                 best = cut;
             }

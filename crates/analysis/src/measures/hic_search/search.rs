@@ -6,6 +6,9 @@ use super::{Optimum, RESOLUTION, area::Area, criterion, middle_of};
 
 /// Boxes that are looked into before the search settles for a bound.
 const MOST_BOXES: usize = 2_000_000;
+/// After so many boxes so much of a maximum may be missed, in parts of it, which then is stated: long records have
+/// thousands of pulses that are all as good as each other.
+const COARSER: [(usize, f64); 2] = [(100_000, 1e-9), (300_000, 1e-6)];
 /// Times between which intervals are tried before the search.
 const MOST_FIRST: usize = 64;
 /// A box that is as short as this, in parts of the interval, is not divided further: what it may hold beyond its
@@ -155,11 +158,19 @@ impl<'a> Search<'a> {
                 Family::Capped(side) => self.divide_capped(side),
             }
         }
+        if self.resolution() > RESOLUTION {
+            self.give_up(self.enough());
+        }
     }
 
     /// What a box has to exceed to be looked into.
     fn enough(&self) -> f64 {
-        self.best.value * (1.0 + RESOLUTION)
+        self.best.value * (1.0 + self.resolution())
+    }
+
+    fn resolution(&self) -> f64 {
+        let passed = COARSER.iter().rev().find(|coarser| self.visited > coarser.0);
+        passed.map_or(RESOLUTION, |coarser| coarser.1)
     }
 
     /// Leaves a box as it is.
