@@ -155,6 +155,7 @@ fn promising(numbers: &[Number], settings: NetworkSettings, task: &mut Task<'_>)
         }
         all.push((if cost.is_nan() { f64::INFINITY } else { cost }, values));
     }
+    task.average(None);
     all.sort_by(|one, other| one.0.total_cmp(&other.0));
     all.into_iter().map(|own| own.1).collect()
 }
