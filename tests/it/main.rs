@@ -69,6 +69,7 @@ mod power_laws;
 mod properties;
 mod random_networks;
 mod rating;
+mod refused;
 mod resultants;
 mod scatter;
 mod scenes;

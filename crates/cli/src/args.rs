@@ -14,7 +14,10 @@ use dashpot_scene::{parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{CliError, is_unit, unquoted_help};
+use crate::{
+    error::{CliError, is_unit, unquoted_help},
+    host,
+};
 
 /// What may stand for a model.
 pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
@@ -105,6 +108,26 @@ impl From<Limits> for String {
         own.text
     }
 }
+
+/// Refuses options that the command line gives where they do nothing, and says `why`.
+pub(crate) fn refuse(options: &[&str], why: &str) -> Result<(), CliError> {
+    let words = host::arguments();
+    let is_given = |option: &&&str| {
+        words.iter().filter_map(|own| own.to_str()).any(|own| {
+            own.strip_prefix(**option).is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+        })
+    };
+    match options.iter().find(is_given) {
+        None => Ok(()),
+        Some(name) => Err(CliError::WrongSetting {
+            name: (*name).to_owned(),
+            reason: format!("it does nothing here: {why}"),
+        }),
+    }
+}
+
+/// Why numbers of a sample do nothing.
+pub(crate) const NO_SCATTER: &str = "no number of the scene has scatter; write one with its standard deviation, such as \"20 ± 2 MN/m\"";
 
 /// When something is done.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]

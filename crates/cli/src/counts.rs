@@ -1,6 +1,9 @@
 //! How many of anything a command may be asked for: one list, checked where its words are read, before any work.
 
-use std::fmt::{Display, Formatter};
+use std::{
+    fmt::{Display, Formatter},
+    num::NonZero,
+};
 
 use crate::error::CliError;
 
@@ -33,6 +36,8 @@ pub(crate) const CURVES: Count = Count::new(1, 200);
 pub(crate) const CURVE_POINTS: Count = Count::new(1, 10_000);
 /// Shards of a sweep.
 pub(crate) const SHARDS: Count = Count::new(1, 1_000_000);
+/// Threads that share work.
+pub(crate) const THREADS: Count = Count::new(1, 1024);
 /// Combinations of values of one test of the rheometer; more are no table.
 pub(crate) const VARIANTS: Count = Count::new(1, 24);
 
@@ -62,6 +67,27 @@ impl Count {
     pub(crate) fn check(self, count: usize, of: &'static str) -> Result<(), CliError> {
         if count <= self.most { Ok(()) } else { Err(CliError::TooMany { of, most: self.most }) }
     }
+}
+
+/// Memory \[B\] that a result may take as a whole.
+const MOST_MEMORY: usize = 1 << 30;
+
+/// The error where a result of so many bytes is asked for, estimated before the work; `help` says what to ask for instead.
+pub(crate) fn check_memory(
+    what: impl FnOnce() -> String,
+    bytes: usize,
+    help: &'static str,
+) -> Result<(), CliError> {
+    if bytes <= MOST_MEMORY {
+        return Ok(());
+    }
+    Err(CliError::TooLarge { what: what(), bytes, most: MOST_MEMORY, help })
+}
+
+/// What reads a number of threads from a command line.
+pub(crate) fn threads(text: &str) -> Result<NonZero<usize>, String> {
+    let count = THREADS.read()(text)?;
+    NonZero::new(count).ok_or_else(|| format!("a whole number {THREADS} is wanted"))
 }
 
 impl Display for Count {

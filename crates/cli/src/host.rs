@@ -131,7 +131,9 @@ pub fn read_scene(
     set: &[(String, String)],
 ) -> Result<(Scene, Vec<Said>), Vec<Said>> {
     let all = |found: Diagnostics| -> Vec<Said> { found.list.iter().map(Said::from).collect() };
-    let read = read(text, &ReadOptions { file, set, loader: Some(&load) }).map_err(all)?;
+    let read =
+        read(text, &ReadOptions { file, set, loader: Some(&load), ..ReadOptions::default() })
+            .map_err(all)?;
     let (scene, mut said) = (read.value, all(read.warnings));
     for own in &mut said {
         let known = scene.assembly.warnings.iter().find(|known| known.to_string() == own.message);

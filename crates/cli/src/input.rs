@@ -5,11 +5,12 @@ use std::{
     fs::{self, File},
     io::{self, Read},
     path::Path,
+    sync::atomic::{AtomicBool, Ordering},
 };
 
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    Fault, ReadOptions, Scene, nearest, references, table_text, text_of_bytes,
+    BareNumbers, Fault, ReadOptions, Scene, nearest, references, table_text, text_of_bytes,
     units::parse_quantity, with_units,
 };
 
@@ -21,9 +22,16 @@ use crate::{
 /// Texts are at most so long, in bytes; a reader takes one more, so that the limit is noticed.
 const MAX_BYTES: u64 = 64 << 20;
 /// What is said of pipes and devices.
-const NO_FILE: &str = "it is no regular file; standard input is `-`";
+const NO_FILE: &str = "it is no regular file";
+/// Whether numbers without a unit are refused.
+static IS_STRICT: AtomicBool = AtomicBool::new(false);
 /// Name of the built-in scene.
 const BUILT_IN: &str = "reference";
+
+/// From now on numbers of scenes without a unit are refused.
+pub(crate) fn refuse_bare_numbers() {
+    IS_STRICT.store(true, Ordering::Relaxed);
+}
 
 /// A text and the file that it is from, as far as messages are concerned.
 pub(crate) struct Input {
@@ -54,10 +62,11 @@ impl Input {
         } else {
             (&*name, bytes_of(path))
         };
-        let bytes = bytes.map_err(|error| CliError::Unreadable {
-            name: file.to_owned(),
-            reason: reason(&error),
-            similar: similar(path),
+        let bytes = bytes.map_err(|error| {
+            let is_pipe = error.kind() == io::ErrorKind::InvalidInput;
+            let more = if is_pipe { "; standard input is `-`" } else { "" };
+            let (name, similar) = (file.to_owned(), similar(path));
+            CliError::Unreadable { name, reason: reason(&error) + more, similar }
         })?;
         Ok(Self { file: file.to_owned(), bytes })
     }
@@ -73,7 +82,12 @@ impl Input {
 
     /// How it is read with the values `set` in place of its own.
     pub(crate) fn options<'o>(&'o self, set: &'o [(String, String)]) -> ReadOptions<'o> {
-        ReadOptions { file: Some(&self.file), set, loader: Some(&load) }
+        let bare = match IS_STRICT.load(Ordering::Relaxed) {
+            _ if host::is_called() => BareNumbers::Silent,
+            true => BareNumbers::Refused,
+            false => BareNumbers::Warned,
+        };
+        ReadOptions { file: Some(&self.file), set, loader: Some(&load), bare }
     }
 }
 

@@ -55,7 +55,11 @@ pub fn main() -> ExitCode {
             return print_usage(&message).into();
         }
     };
+    cancel::watch_interrupts();
     let terminal = Terminal::new(arguments.color);
+    if arguments.strict {
+        input::refuse_bare_numbers();
+    }
     let status = arguments.command.run(terminal).unwrap_or_else(|error| {
         terminal.error(&error);
         error.status()

@@ -94,7 +94,12 @@ impl SceneText<'_> {
         };
         let otherwise = |reason| CliError::WrittenOtherwise { path: path.to_owned(), reason };
         let read = |text: &str, file: &str| {
-            let options = ReadOptions { file: Some(file), set: self.set, loader: Some(&load) };
+            let options = ReadOptions {
+                file: Some(file),
+                set: self.set,
+                loader: Some(&load),
+                ..ReadOptions::default()
+            };
             said(text, &options)
         };
         let again = read(&text, &path.to_string_lossy()).map_err(|faults| {

@@ -8,12 +8,18 @@ use std::{
     hash::{BuildHasher, Hasher},
     io::{self, BufWriter, ErrorKind, Read, Write},
     path::{Path, PathBuf},
+    time::Duration,
 };
 
-use crate::error::{CliError, unwritable};
+use crate::{
+    cancel,
+    error::{CliError, unwritable},
+};
 
 /// Beginning and end of the names of parts.
 const NAME: [&str; 2] = [".dashpot-", ".part"];
+/// A text that is not in its place for so long was left.
+const ABANDONED: Duration = Duration::from_secs(60);
 /// Bytes that are read at once.
 const CHUNK: usize = 1 << 16;
 
@@ -34,6 +40,7 @@ impl Part {
     ) -> io::Result<(Self, Fingerprint)> {
         let path = folder.join(name);
         let file = OpenOptions::new().write(true).create_new(true).open(&path)?;
+        cancel::begin(&path);
         let part = Self { path, is_placed: false };
         let mut writer = Printing { inner: BufWriter::new(file), print: Fingerprint::default() };
         fill(&mut writer)?;
@@ -62,6 +69,7 @@ impl Part {
 
 impl Drop for Part {
     fn drop(&mut self) {
+        cancel::end(&self.path);
         if !self.is_placed {
             // What cannot be removed stays; the error that led here is told.
             let _ = fs::remove_file(&self.path);
@@ -165,10 +173,24 @@ fn place(
             return Err(CliError::Foreign { path: path.to_owned(), help });
         }
     }
+    tidy(folder);
     let name = part_name(&token(), 0);
     let made = Part::new(folder, &name, |out| out.write_all(text.as_bytes()));
     let (part, _) = made.map_err(unwritable)?;
     Ok((part, old))
+}
+
+/// Removes the texts that other processes left beside their places when they were killed: one that goes on is placed at
+/// once.
+fn tidy(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten().filter(|own| is_first_part(&own.file_name())) {
+        let is_old = |own: Metadata| Some(own.modified().ok()?.elapsed().ok()? > ABANDONED);
+        if entry.metadata().ok().filter(Metadata::is_file).and_then(is_old) == Some(true) {
+            // What cannot be removed stays.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// What is at `path`, links not followed.

@@ -11,8 +11,9 @@ use crate::{error::CliError, host, input::Input, output::list};
 
 /// Options of a call, which no scene has.
 const OF_THE_CALL: [&str; 4] = ["out", "force", "json", "set"];
-/// A global option, which may stand among those of a verb.
+/// Global options, which may stand among those of a verb.
 const COLOR: &str = "color";
+const STRICT: &str = "strict";
 
 /// Where in a value the name of a file begins, if it has one.
 type FileAt = fn(&str) -> Option<usize>;
@@ -50,6 +51,7 @@ impl Verb {
     ) -> Result<A, CliError> {
         let command = A::augment_args(Command::new(self.name).no_binary_name(true));
         let command = command.arg(clap::Arg::new(COLOR).long(COLOR).num_args(1));
+        let command = command.arg(clap::Arg::new(STRICT).long(STRICT).action(ArgAction::SetTrue));
         let mut words: Vec<OsString> = Vec::new();
         for wish in wishes {
             words.extend(self.words(&command, wish, &given, file)?);
@@ -79,7 +81,8 @@ impl Verb {
             reason,
         };
         let known = command.get_arguments().filter_map(|own| Some((own.get_long()?, own)));
-        let known = known.filter(|own| own.0 != COLOR && !OF_THE_CALL.contains(&own.0));
+        let known =
+            known.filter(|own| ![COLOR, STRICT].contains(&own.0) && !OF_THE_CALL.contains(&own.0));
         let known: Vec<_> = list(known);
         let Some((name, own)) = known.iter().find(|own| own.0 == wish.key) else {
             let names = list(known.iter().map(|own| own.0)).join(", ");

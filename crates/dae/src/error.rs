@@ -25,7 +25,7 @@ pub enum SolveError {
         value: f64,
     },
     /// The step became too small to go on.
-    #[error("the step of `{method}` became too small at {time:.3e} s (worst unknown: `{unknown}`)")]
+    #[error("the step of `{method}` became too small at {at} s (worst unknown: `{unknown}`)", at = seconds(*.time))]
     StepTooSmall {
         /// The method's name.
         method: &'static str,
@@ -35,7 +35,7 @@ pub enum SolveError {
         unknown: String,
     },
     /// The Newton iteration failed too often.
-    #[error("the equations of a step of `{method}` could not be solved at {time:.3e} s")]
+    #[error("the equations of a step of `{method}` could not be solved at {at} s", at = seconds(*.time))]
     NewtonFailed {
         /// The method's name.
         method: &'static str,
@@ -43,7 +43,7 @@ pub enum SolveError {
         time: f64,
     },
     /// The balances of the algebraic unknowns were not solved.
-    #[error("the balances at {time:.3e} s were not solved: no value of `{unknown}` was found")]
+    #[error("the balances at {at} s were not solved: no value of `{unknown}` was found", at = seconds(*.time))]
     Inconsistent {
         /// Time reached \[s\].
         time: f64,
@@ -51,7 +51,7 @@ pub enum SolveError {
         unknown: String,
     },
     /// The result contains a number that is not finite.
-    #[error("`{method}` lost `{unknown}` at {time:.3e} s: its value is not finite")]
+    #[error("`{method}` lost `{unknown}` at {at} s: its value is not finite", at = seconds(*.time))]
     NotFinite {
         /// The method's name.
         method: &'static str,
@@ -61,7 +61,7 @@ pub enum SolveError {
         unknown: String,
     },
     /// More steps than the limit were needed.
-    #[error("`{method}` took {steps} steps and reached only {time:.3e} s")]
+    #[error("`{method}` took {steps} steps and reached only {at} s", at = seconds(*.time))]
     TooManySteps {
         /// The method's name.
         method: &'static str,
@@ -72,8 +72,7 @@ pub enum SolveError {
     },
     /// The run was more work than it may be.
     #[error(
-        "the budget of work is spent: `{method}` has reached {time:.3e} s after {work:.1e} units"
-    )]
+        "the budget of work is spent: `{method}` has reached {at} s after {work:.1e} units", at = seconds(*.time))]
     BudgetSpent {
         /// The method's name.
         method: &'static str,
@@ -84,10 +83,9 @@ pub enum SolveError {
     },
     /// The solution takes more memory than a run may.
     #[error(
-        "the solution of `{method}` takes {} MB after {steps} steps, at {time:.3e} s: it is too large \
+        "the solution of `{method}` takes {} MB after {steps} steps, at {at} s: it is too large \
          to be kept as a whole",
-        bytes / 1_000_000
-    )]
+        bytes / 1_000_000, at = seconds(*.time))]
     TooLarge {
         /// The method's name.
         method: &'static str,
@@ -99,7 +97,7 @@ pub enum SolveError {
         bytes: usize,
     },
     /// The equations that follow a switching are not known.
-    #[error("at {time:.6e} s: {reason}")]
+    #[error("at {at} s: {reason}", at = seconds(*.time))]
     Switching {
         /// Time reached \[s\].
         time: f64,
@@ -108,8 +106,7 @@ pub enum SolveError {
     },
     /// More intervals than the limit were needed.
     #[error(
-        "{parts} had switched {intervals} times by {time:.6e} s: the run takes more than are followed"
-    )]
+        "{parts} had switched {intervals} times by {at} s: the run takes more than are followed", at = seconds(*.time))]
     TooManySwitches {
         /// Time reached \[s\].
         time: f64,
@@ -119,13 +116,13 @@ pub enum SolveError {
         parts: String,
     },
     /// An observer ended the run.
-    #[error("the run was cancelled at {time:.3e} s")]
+    #[error("the run was cancelled at {at} s", at = seconds(*.time))]
     Cancelled {
         /// Time reached \[s\].
         time: f64,
     },
     /// The integrator gave up for another reason, which it states.
-    #[error("`{method}` failed at {time:.3e} s: {reason}")]
+    #[error("`{method}` failed at {at} s: {reason}", at = seconds(*.time))]
     Integrator {
         /// The method's name.
         method: &'static str,
@@ -134,4 +131,11 @@ pub enum SolveError {
         /// The integrator's own words.
         reason: String,
     },
+}
+
+/// A time in seconds to four digits: only what is very small or large by a power of ten.
+pub(crate) fn seconds(time: f64) -> String {
+    let rounded = format!("{time:.3e}").parse().unwrap_or(time);
+    let is_handy = rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs());
+    if is_handy { rounded.to_string() } else { format!("{rounded:e}") }
 }

@@ -13,10 +13,13 @@ use crate::{
         network_faults::{note_errors, note_held, note_warnings},
         review::{outlasted, review, upward, weightless},
     },
-    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, Severity, fault::Fault},
     kinds::{Example, model_words},
     models::{ModelReader, notes::ModelNote},
-    quantities::values::{NamedValue, Overrides},
+    quantities::{
+        bare::BareNumbers,
+        values::{NamedValue, Overrides},
+    },
     sections::{
         Reading, Targets, check_stops, find_duration, read_accuracy, read_effects, read_elements,
         read_limits, read_loads, read_measures, read_nodes, read_run,
@@ -173,6 +176,8 @@ pub struct ReadOptions<'o> {
     pub set: &'o [(String, String)],
     /// Gives the bytes of other files, for `model = "pads.toml:valox-pad"` and `table = "pulse.csv"`.
     pub loader: Option<Loader<'o>>,
+    /// What becomes of numbers without a unit.
+    pub bare: BareNumbers,
 }
 
 impl std::fmt::Debug for ReadOptions<'_> {
@@ -207,7 +212,7 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    let mut read = checked(|faults| read_scene(text, options, faults))?;
+    let mut read = checked(options.bare, |faults| read_scene(text, options, faults))?;
     read.value.warnings.clone_from(&read.warnings.list);
     Ok(read)
 }
@@ -253,7 +258,7 @@ pub fn read_network(
     text: &str,
     options: &ReadOptions<'_>,
 ) -> Result<Checked<Network>, Diagnostics> {
-    checked(|faults| {
+    checked(options.bare, |faults| {
         let (library, _) = load(text, options, faults)?;
         let parts = Parts::read(&library, faults);
         if library.section("run").is_some() {
@@ -270,7 +275,7 @@ pub fn read_network(
 ///
 /// All faults of the text, each with its place.
 pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
-    let posed = checked(|faults| {
+    let posed = checked(BareNumbers::Silent, |faults| {
         let (library, _) = load(text, options, faults)?;
         let Parts { reading, network, measures, limits, accuracy, .. } =
             Parts::read(&library, faults);
@@ -287,10 +292,20 @@ pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics>
 
 /// What `read` returns, unless it notes an error.
 pub(crate) fn checked<T>(
+    bare: BareNumbers,
     read: impl FnOnce(&Faults) -> Option<T>,
 ) -> Result<Checked<T>, Diagnostics> {
     let faults = Faults::default();
+    if bare != BareNumbers::Silent {
+        faults.count_bare();
+    }
     let value = read(&faults);
+    match bare {
+        BareNumbers::Refused => faults.tell_bare(Severity::Error),
+        // What is wrong comes first.
+        _ if faults.errors() == 0 => faults.tell_bare(Severity::Warning),
+        _ => {}
+    }
     let errors = faults.errors();
     let found = faults.finish();
     match value {

@@ -58,7 +58,7 @@ impl CliError {
                  `dashpot run` alone solves the built-in one"
                     .to_owned(),
             ),
-            Self::Foreign { help, .. } => Some((*help).to_owned()),
+            Self::Foreign { help, .. } | Self::TooLarge { help, .. } => Some((*help).to_owned()),
             Self::Busy { .. } => {
                 Some("choose another folder for `--out`, or wait until it is done".to_owned())
             }
@@ -183,6 +183,9 @@ fn solve_help(error: &SolveError) -> Option<String> {
                      less",
             10.0 * *work as f64
         )),
+        SolveError::TooLarge { .. } => Some(
+            "a shorter `duration`, or a condition under [run] that ends it, keeps less".to_owned(),
+        ),
         SolveError::TooManySwitches { .. } => Some(
             "what loses nothing in its impacts bounces for ever, ever lower as others lose \
                      speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"

@@ -150,6 +150,9 @@ pub(crate) enum CliError {
     /// A named value that is both set and varied.
     #[error("`{name}` is set and varied: leave out one of both")]
     SetAndVaried { name: String },
+    /// A result that takes more memory than one may.
+    #[error("{what} take some {} MB of memory: they are refused beyond {} MB", bytes / 1_000_000, most / 1_000_000)]
+    TooLarge { what: String, bytes: usize, most: usize, help: &'static str },
     /// More of something than there may be.
     #[error("these are more than {most} {of}")]
     TooMany { of: &'static str, most: usize },

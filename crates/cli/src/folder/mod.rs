@@ -15,6 +15,7 @@ use std::{
 
 use self::list::List;
 use crate::{
+    cancel,
     error::{CliError, unwritable},
     host,
     out::SceneText,
@@ -56,6 +57,9 @@ impl Folder {
         }
         let is_new = !path.is_dir();
         fs::create_dir_all(path).map_err(unwritable(path))?;
+        if is_new {
+            [path.to_owned(), path.join(LOCK)].iter().for_each(|own| cancel::begin(own));
+        }
         let folder = Self { path: path.to_owned(), is_new, _lock: lock(path)? };
         let list = List::read(path)?;
         list.tidy(path).map_err(unwritable(path))?;

@@ -61,6 +61,9 @@ pub(crate) struct Arguments {
     /// Colours in the output; `auto` is for terminals and honours `NO_COLOR`.
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: When,
+    /// Refuses numbers of scenes without a unit where one is expected, in place of reading them in SI.
+    #[arg(long, global = true)]
+    pub(crate) strict: bool,
 }
 
 /// The verbs.

@@ -23,7 +23,7 @@ pub(crate) const ROUNDING: f64 = 16.0;
 pub(crate) const PANEL_BYTES: usize = 300;
 
 /// Memory \[B\] that the rows of a run may take.
-pub(crate) const MOST_BYTES: usize = 2 << 30;
+pub(crate) const MOST_BYTES: usize = 1 << 30;
 
 /// Steps whose conversions are kept, at most.
 const MOST_CONVERTED: usize = 4096;

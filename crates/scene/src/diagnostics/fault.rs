@@ -14,7 +14,7 @@ use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     curves::CurveChange,
     quantities::{
-        bare::BareNumber,
+        bare::{BareNumber, BareQuantity, bare_numbers},
         scatter::ScatterFault,
         words::{described, example, in_both_units, with_units},
     },
@@ -228,6 +228,9 @@ pub enum Fault {
     /// A number without a unit in place of one that has one.
     #[error("{0}")]
     BareNumber(BareNumber),
+    /// Numbers without a unit where one is expected.
+    #[error("{}", bare_numbers(.named, *.count))]
+    BareNumbers { named: Vec<BareQuantity>, count: usize },
     /// A limit without a unit.
     #[error("`{text}` has no unit: it is read as {}", in_both_units(*.level, *.expected))]
     BareLimit {
@@ -361,6 +364,10 @@ impl Fault {
             Self::BadValue { error, example } => bad_value_help(error, example),
             Self::WrongDimension { expected, .. } | Self::NoQuantity { expected, .. } => {
                 example(*expected)
+            }
+            Self::BareNumbers { named, .. } => {
+                let like = named.first().map(|own| format!("\"{} {}\"", own.text, own.unit));
+                format!("write their units, such as {}", like.unwrap_or_default())
             }
             Self::BareLimit { level, expected, .. } => {
                 format!("write {}", with_units(&level.to_string(), *expected))

@@ -4,13 +4,27 @@ pub(crate) mod fault;
 pub(crate) mod fault_help;
 pub(crate) mod render;
 
-use std::{cell::RefCell, collections::HashSet, ops::Range, sync::Arc};
+use std::{
+    cell::RefCell,
+    collections::{HashMap, HashSet},
+    ops::Range,
+    sync::Arc,
+};
+
+use dashpot_network::parameters::Dimension;
 
 use self::fault::Fault;
-use crate::text::source::{Place, SET, Source};
+use crate::{
+    quantities::bare::BareQuantity,
+    text::source::{Place, SET, Source},
+    units::si_unit,
+};
 
 /// So many faults are kept; the others are counted.
 const KEPT: usize = 100;
+
+/// So many numbers without a unit are named.
+const BARE_NAMED: usize = 4;
 
 /// How bad a fault is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,6 +121,8 @@ struct State {
     omitted: usize,
     errors: usize,
     damaged: bool,
+    /// Numbers without a unit, as they are written, and what they are read as; `None` where nobody asks.
+    bare: Option<HashMap<Place, (String, Dimension)>>,
 }
 
 impl Faults {
@@ -133,6 +149,38 @@ impl Faults {
     /// Notes something odd.
     pub(crate) fn warning(&self, place: impl Into<Option<Place>>, fault: Fault) {
         self.note(Severity::Warning, place.into(), fault);
+    }
+
+    /// From now on numbers without a unit count.
+    pub(crate) fn count_bare(&self) {
+        self.state.borrow_mut().bare = Some(HashMap::new());
+    }
+
+    /// Counts a number without a unit, which is read as one of this dimension.
+    pub(crate) fn bare(&self, place: Place, dimension: Dimension, text: impl FnOnce() -> String) {
+        let is_new = |own: &HashMap<_, _>| !own.contains_key(&place);
+        if !self.state.borrow().bare.as_ref().is_some_and(is_new) {
+            return;
+        }
+        let text = text();
+        if let Some(bare) = &mut self.state.borrow_mut().bare {
+            bare.insert(place, (text, dimension));
+        }
+    }
+
+    /// Notes all numbers without a unit as one fault.
+    pub(crate) fn tell_bare(&self, severity: Severity) {
+        let bare = self.state.borrow_mut().bare.take().unwrap_or_default();
+        let mut all: Vec<(Place, (String, Dimension))> = bare.into_iter().collect();
+        all.sort_by_key(|own| (own.0.source, own.0.start));
+        let Some(first) = all.first().map(|own| own.0) else { return };
+        let named = all.iter().take(BARE_NAMED).map(|(place, (text, dimension))| BareQuantity {
+            text: text.clone(),
+            unit: si_unit(*dimension),
+            whereabouts: self.whereabouts(*place),
+        });
+        let fault = Fault::BareNumbers { named: named.collect(), count: all.len() };
+        self.note(severity, Some(first), fault);
     }
 
     /// Says that the text is not TOML throughout: what is missing may have been meant to be there.

@@ -11,6 +11,7 @@ use super::{
 use crate::{
     check::network_faults::value_of,
     diagnostics::{Checked, Diagnostic, Diagnostics, fault::Fault},
+    quantities::bare::BareNumbers,
     scene::{ReadOptions, checked, load},
     sections::ELEMENT_KEYS,
     text::{
@@ -84,7 +85,7 @@ pub fn read_named_model(
     name: &str,
     options: &ReadOptions<'_>,
 ) -> Result<Checked<NamedModel>, Diagnostics> {
-    checked(|faults| {
+    checked(options.bare, |faults| {
         let (library, source) = load(text, options, faults)?;
         let models = ModelReader::new(&library, faults);
         let (found, is_shared) = match find(&library, name) {
@@ -138,7 +139,7 @@ pub fn read_models(
     text: &str,
     options: &ReadOptions<'_>,
 ) -> Option<Result<Checked<Vec<NamedModel>>, Diagnostics>> {
-    let names = checked(|faults| {
+    let names = checked(BareNumbers::Silent, |faults| {
         let (library, _) = load(text, options, faults)?;
         let is_alone = library.sections().iter().all(|own| OF_MODELS.contains(&&*own.key));
         let of = |own: ModelSection| {

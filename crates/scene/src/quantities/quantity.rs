@@ -441,6 +441,10 @@ impl<'d> Quantities<'d> {
             self.faults.error(item.place, self.traced(item, fault));
             return None;
         }
+        let is_bare = quantity.dimension.is_none() && quantity.value != 0.0;
+        if is_bare && expected != Dimension::NUMBER && !is_index {
+            self.faults.bare(item.place, expected, || self.written(item));
+        }
         Some(quantity.value)
     }
 }

@@ -24,6 +24,9 @@ pub enum ListedFault {
     /// The first line does not name the columns.
     #[error("the first line of the table names no numbers of the scene")]
     NoHeader,
+    /// A row has a field without anything in it.
+    #[error("line {line} has an empty field: each row has a value in every column")]
+    EmptyField { line: usize },
     /// A column has no name.
     #[error("column {column} of the table has no name")]
     Nameless { column: usize },
@@ -49,7 +52,10 @@ impl ListedFault {
     pub fn help(&self) -> String {
         match self {
             Self::Unreadable(error) if error.help().is_some() => error.help().unwrap_or_default(),
-            Self::Uneven { .. } | Self::Unreadable(_) | Self::EmptyWord { .. } => {
+            Self::Uneven { .. }
+            | Self::Unreadable(_)
+            | Self::EmptyWord { .. }
+            | Self::EmptyField { .. } => {
                 "numbers are bare, their unit stands in the first line, such as `liner.thickness [mm]`; a column of \
                  words, such as `liner.material`, has one in each row"
                     .to_owned()
@@ -86,7 +92,7 @@ impl Variation {
             _ => ListedFault::Unreadable(error),
         })?;
         if !table.has_header() {
-            return Err(ListedFault::NoHeader);
+            return Err(empty_field(text).unwrap_or(ListedFault::NoHeader));
         }
         let mut columns = Vec::with_capacity(table.columns());
         for at in 0..table.columns() {
@@ -143,6 +149,14 @@ impl Variation {
     }
 }
 
+/// The first row with an empty field, which hides the header, where the first line is no row of numbers.
+fn empty_field(text: &str) -> Option<ListedFault> {
+    let mut lines = text.lines().zip(1..).filter(|own| !own.0.trim().is_empty());
+    lines.next().filter(|own| own.0.contains(char::is_alphabetic))?;
+    let has_gap = |own: &str| own.split([',', ';', '\t']).any(|own| own.trim().is_empty());
+    lines.find(|own| has_gap(own.0)).map(|(_, line)| ListedFault::EmptyField { line })
+}
+
 /// Which columns are of words: those without a unit in which no field is a number or was meant as one.
 fn columns_of_words(table: &DataTable<'_>, columns: &[Variation]) -> Vec<bool> {
     let mut of_words: Vec<bool> = columns.iter().map(|own| own.unit.is_empty()).collect();
@@ -197,6 +211,7 @@ mod tests {
             ("", "the table has no row of numbers"),
             ("K [N/m]\n", "the table has no row of numbers"),
             ("5.5,20\n4,15\n", "the first line of the table names no numbers"),
+            ("m [kg],K [kN/m]\n4,\n6,7\n", "line 2 has an empty field"),
             ("K [N/m],[mm]\n1,2\n", "column 2 of the table has no name"),
             ("K [N/mm2x]\n1\n", "column `K`: "),
             ("K,C\n1,2\n# no\n1\n", "line 4 has 1 fields, but the first line has 2"),

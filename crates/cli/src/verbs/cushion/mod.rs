@@ -19,8 +19,8 @@ use serde::Serialize;
 
 use self::{asked::Wanted, batches::Batches};
 use crate::{
-    args::{SceneArguments, method_names, probability},
-    counts::SCATTERED_SCENES,
+    args::{NO_SCATTER, SceneArguments, method_names, probability, refuse},
+    counts::{SCATTERED_SCENES, threads},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
@@ -96,7 +96,7 @@ pub(crate) struct CushionArguments {
     #[arg(long, value_name = "NAME", value_parser = method_names())]
     method: Option<String>,
     /// How many threads share the drops; the results are the same [default: one per core].
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Folder for CSV, JSON, one figure for each height, and report.html with everything on one page.
     #[arg(long, value_name = "DIR")]
@@ -139,6 +139,12 @@ pub(crate) fn cushion(
     asked.threads = arguments.threads.map_or_else(all, NonZero::get);
     let pose = wanted.pose(&input, set, arguments.method.as_deref());
     let batches = Batches::of((arguments, &wanted), &scene, &input)?;
+    if batches.is_none() {
+        refuse(&["--scatter", "--seed", "--robust"], NO_SCATTER)?;
+    }
+    if wanted.asked.limit.is_none() {
+        refuse(&["--robust"], "there is no limit that a part of the designs has to keep")?;
+    }
     // Scattered drops are the most by far.
     let plain = if batches.is_some() { 0.05 } else { 1.0 };
     let mut show = bar("cushion", (0.0, plain), terminal);

@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use self::{laboratory::Test, pair::Pair, thesis::Thesis};
 use crate::{
-    args::{ValueArguments, assignment},
+    args::{ValueArguments, assignment, refuse},
     error::{CliError, Status},
     input::{setting, title},
     numbers::{constant, significant},
@@ -95,6 +95,12 @@ struct GroupsStudy {
 /// Tells of groups, similar scenes and laboratory tests.
 pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<Status, CliError> {
     let set = &arguments.values.set;
+    if arguments.second.is_none() {
+        refuse(&["--within"], "it is about two scenes, A and B")?;
+    }
+    if arguments.lab.is_empty() && arguments.from.is_empty() {
+        refuse(&["--out"], "a scene is made by `--lab` or `--from`")?;
+    }
     let scene = read_scene(arguments.first.as_deref(), set, terminal)?;
     if let Some(path) = &arguments.out {
         SceneFile::new(path, arguments.force)?;

@@ -87,7 +87,7 @@ pub(crate) struct RheometerArguments {
     #[arg(long)]
     json: bool,
     /// Plots in the text; `auto` draws them on terminals.
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, value_name = "WHEN", default_value = "auto", conflicts_with = "json")]
     plot: When,
 }
 

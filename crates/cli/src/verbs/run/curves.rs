@@ -2,10 +2,12 @@
 
 use dashpot_analysis::{RunReport, table_at};
 use dashpot_plot::Table;
+use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{Answer, deviations::Told, files::sample_times, floor};
 use crate::{
+    counts::check_memory,
     error::CliError,
     numbers::{Unit, constant},
     output::list,
@@ -88,6 +90,22 @@ impl Answer {
         };
         Some(Table { caption: String::new(), header, rows: list(found.outputs.iter().map(row)) })
     }
+}
+
+/// Memory \[B\] of a value of a curve, with its text.
+const VALUE_BYTES: usize = 40;
+/// Of large networks no more outputs are kept.
+const MOST_OUTPUTS: usize = 1000;
+
+/// Refuses curves of a scene by so many methods that take too much memory as an object.
+pub(super) fn check_size(scene: &Scene, methods: usize) -> Result<(), CliError> {
+    let (outputs, times) = (scene.assembly.system.outputs.len(), scene.run.samples);
+    let values = outputs.min(MOST_OUTPUTS).saturating_mul(times).saturating_mul(methods.max(1));
+    check_memory(
+        || format!("curves of {outputs} outputs at {times} times"),
+        values.saturating_mul(VALUE_BYTES),
+        "`samples` under [run] says at how many times; `--at` names some; `--out DIR` writes all as CSV piece by piece",
+    )
 }
 
 /// Refuses times that the run does not reach.

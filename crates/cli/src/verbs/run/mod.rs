@@ -55,8 +55,8 @@ pub(crate) use self::{
 pub use self::{one::SceneRun, options::RunOptions, scatter::ScatterArguments};
 use crate::{
     args::{
-        LimitArguments, MethodNames, Switch, ValueArguments, Variant, When, budget, method_names,
-        share, time, variant,
+        LimitArguments, MethodNames, NO_SCATTER, Switch, ValueArguments, Variant, When, budget,
+        method_names, refuse, share, time, variant,
     },
     error::{CliError, Status},
     folder::{Folder, Staged},
@@ -158,7 +158,7 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     curves: bool,
     /// A plot of the forces, or of what was measured, in the text; `auto` draws it on terminals.
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, value_name = "WHEN", default_value = "auto", conflicts_with = "json")]
     plot: When,
 }
 
@@ -289,6 +289,11 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     if arguments.enforce && scenes.iter().all(|own| own.scene.limits.is_empty()) {
         return Err(CliError::NoLimits);
     }
+    check_options(arguments, &scenes)?;
+    for own in scenes.iter().filter(|_| arguments.curves) {
+        let methods = arguments.method.len().max(own.scene.run.methods.len());
+        curves::check_size(&own.scene, methods)?;
+    }
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let mut answers = Vec::new();
     let mut warned = Vec::new();
@@ -323,6 +328,26 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
         emit(&answer, arguments.json, folder, terminal)?;
     }
     Ok(status.unwrap_or(own))
+}
+
+/// Refuses what does nothing for these scenes.
+fn check_options(arguments: &RunArguments, scenes: &[Named]) -> Result<(), CliError> {
+    if scenes.iter().all(|own| own.scene.scatter.is_empty()) {
+        refuse(&["--sample", "--seed"], NO_SCATTER)?;
+    }
+    let has_object = arguments.json || arguments.out.is_some();
+    if !has_object {
+        refuse(&["--curves"], "curves stand in the JSON object; add `--json` or `--out DIR`")?;
+    }
+    if scenes.len() > 1 && !has_object {
+        let why = "of several designs the values at times stand in the JSON object; add `--json`";
+        refuse(&["--at"], why)?;
+    }
+    let is_exact = |own: &String| own == "exact";
+    if !arguments.method.is_empty() && arguments.method.iter().all(is_exact) {
+        refuse(&["--rtol"], "`exact` takes no steps and has no tolerance")?;
+    }
+    Ok(())
 }
 
 /// Tells of each error once, with the methods that it is about unless that is all of them.

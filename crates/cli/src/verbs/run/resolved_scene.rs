@@ -131,7 +131,12 @@ fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
         rest.rtol = None;
     }
     let text = document.to_string();
-    let options = ReadOptions { file: scene.file.as_deref(), set: &rest.set, loader: Some(&load) };
+    let options = ReadOptions {
+        file: scene.file.as_deref(),
+        set: &rest.set,
+        loader: Some(&load),
+        ..ReadOptions::default()
+    };
     let read = read(&text, &options).ok()?.value;
     let methods_agree = changes.methods.is_empty()
         || !rest.methods.is_empty()

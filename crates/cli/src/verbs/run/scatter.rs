@@ -93,7 +93,7 @@ pub(crate) fn drawn(
 /// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands
 /// in it.
 fn options<'o>(scene: &'o Scene, set: &'o [(String, String)]) -> ReadOptions<'o> {
-    ReadOptions { file: scene.file.as_deref(), set, loader: Some(&load) }
+    ReadOptions { file: scene.file.as_deref(), set, loader: Some(&load), ..ReadOptions::default() }
 }
 
 /// What is set from outside and has no scatter: names under `[values]`.

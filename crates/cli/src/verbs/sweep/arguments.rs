@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     args::{LimitArguments, SceneArguments, When, budget, method_names, share},
-    counts::SWEEP_POINTS,
+    counts::{SWEEP_POINTS, threads},
     error::CliError,
     folder::Folder,
 };
@@ -86,7 +86,7 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     pub(super) budget: Option<u64>,
     /// How many threads share the points; the results are the same [default: one per core].
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = threads)]
     #[serde(skip)]
     pub(super) threads: Option<NonZero<usize>>,
     /// One part of so many, such as 3/10, for a queue of jobs or several machines: only its points are solved, and
@@ -118,7 +118,7 @@ pub(crate) struct OutputArguments {
     #[arg(long)]
     pub(super) json: bool,
     /// A table in handy units for people, in place of CSV in SI units; `auto` prints it on terminals.
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, value_name = "WHEN", default_value = "auto", conflicts_with = "json")]
     pub(super) table: When,
 }
 

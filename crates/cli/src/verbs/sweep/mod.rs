@@ -26,7 +26,7 @@ use dashpot_analysis::{
         points_of_shard, sweep as solve, sweep_shard,
     },
 };
-use dashpot_scene::{Diagnostic, Diagnostics, Posed, Scene, pose, read};
+use dashpot_scene::{BareNumbers, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, pose, read};
 use serde::Serialize;
 
 pub(crate) use self::{
@@ -41,8 +41,8 @@ use self::{
     words::{notes, summary},
 };
 use crate::{
-    args::When,
-    counts::SWEEP_POINTS,
+    args::{When, refuse},
+    counts::{SWEEP_POINTS, check_memory},
     error::{CliError, Status},
     folder::Staged,
     input::{Input, title},
@@ -81,6 +81,9 @@ fn solved_or_merged(
     terminal: Terminal,
 ) -> Result<Status, CliError> {
     let Asked { input, set, scene, known, varied, grid } = Asked::read(arguments, terminal)?;
+    if !arguments.gradient.is_empty() {
+        refuse(&["--limit"], "derivatives are judged by no limit")?;
+    }
     let further = arguments.limits.beside(&scene.limits)?;
     let scene_point = |posed: Posed| arguments.scene_point(posed, &further);
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
@@ -122,6 +125,7 @@ fn solved_or_merged(
     {
         return Ok(Status::Done);
     }
+    check_size(arguments, &varied, &grid, &columns)?;
     let folder = arguments.folder(&varied, &columns)?;
     terminal.diagnose(&of_ends(of, (&input, &set), known)?);
     if !arguments.gradient.is_empty() {
@@ -189,6 +193,30 @@ impl Asked {
     }
 }
 
+/// Memory \[B\] that a point takes while it is solved, and that a number takes as text.
+const POINT_BYTES: usize = 200;
+const NUMBER_BYTES: usize = 20;
+
+/// Refuses points whose values take too much memory as a whole.
+fn check_size(
+    arguments: &SweepArguments,
+    varied: &Varied,
+    grid: &Grid,
+    columns: &[Column],
+) -> Result<(), CliError> {
+    let (points, numbers) = match arguments.shard {
+        Some(place) => (points_of_shard(grid.len(), place.number, place.of).len(), 0),
+        None => (grid.len(), varied.variations.len() + 2 * columns.len()),
+    };
+    let of_point = POINT_BYTES + 16 * columns.len() + NUMBER_BYTES * numbers;
+    check_memory(
+        || format!("{points} points of {}", counted(columns.len(), "measure")),
+        points.saturating_mul(of_point),
+        "`--parquet --out DIR` writes them while they are solved, in the memory of one file; `--shard 1/10 --out DIR` \
+         solves a part; `--measure` with fewer measures takes less",
+    )
+}
+
 /// What a sweep or a shard of it yields.
 enum Found {
     Shard(Place, Shard),
@@ -240,7 +268,9 @@ fn of_ends(
     let before = shown.len();
     for point in varied.telling(grid) {
         let text = varied.text_at(&grid.places(point));
-        let found = read(&text, &input.options(set)).map_err(CliError::Scene);
+        // Numbers without a unit are told of the scene alone.
+        let options = ReadOptions { bare: BareNumbers::Silent, ..input.options(set) };
+        let found = read(&text, &options).map_err(CliError::Scene);
         let in_line = varied.lines.get(point).zip(file);
         if let (Err(_), Some((line, file))) = (&found, in_line) {
             note(&format!("line {line} of `{}` gives these values:", file.display()));

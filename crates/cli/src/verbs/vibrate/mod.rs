@@ -72,7 +72,7 @@ pub(crate) struct VibrateArguments {
     #[arg(long)]
     json: bool,
     /// A plot in the text; `auto` draws it on terminals.
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, value_name = "WHEN", default_value = "auto", conflicts_with = "json")]
     plot: When,
 }
 

@@ -1,0 +1,214 @@
+//! What the command refuses by name: options that do nothing, results beyond any memory, numbers without a unit; and what
+//! an interrupt leaves.
+
+use std::{
+    fs::{self, File},
+    process::{Command, Stdio},
+    thread::sleep,
+    time::{Duration, Instant, SystemTime},
+};
+
+use tempfile::TempDir;
+
+use crate::{
+    cli::{code, err, file, out, run, said, text},
+    scenes::scene_paths,
+};
+
+const PAD: &str = r#"[values]
+K = "60 kN/m"
+[nodes]
+head = { mass = "5 kg", velocity = "2 m/s" }
+[elements]
+pad = { between = ["head", "ground"], kelvin-voigt = { spring = "K", dashpot = "80 N s/m" }, thickness = "30 mm", area = "50 cm^2" }
+[run]
+duration = "20 ms"
+"#;
+
+#[test]
+fn options_that_do_nothing_are_refused_by_name() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", PAD);
+    let scene = text(&scene);
+    let vary = "K=50,60 kN/m";
+    let drop = ["cushion", scene, "--heights", "30 cm", "--stress", "2,4 kPa"];
+    let cushion = |more: &[&'static str]| [&drop[..], more].concat();
+    for (arguments, option) in [
+        (vec!["run", scene, "--seed", "5"], "--seed"),
+        (vec!["run", scene, "--sample=5"], "--sample"),
+        (vec!["run", scene, "--curves"], "--curves"),
+        (vec!["run", scene, "--plot", "always", "--json"], "--plot"),
+        (vec!["run", scene, "--method", "exact", "--rtol", "1e-6"], "--rtol"),
+        (vec!["run", scene, "--variant", "K=80 kN/m", "--at", "5 ms"], "--at"),
+        (vec!["sweep", scene, "--vary", vary, "--table", "always", "--json"], "--table"),
+        (
+            vec!["sweep", scene, "--gradient", "K", "--limit", "head.peak-acceleration<=5 g"],
+            "--limit",
+        ),
+        (vec!["groups", "--within", "0.1"], "--within"),
+        (vec!["groups", "--out", "nowhere.toml"], "--out"),
+        (vec!["groups", "reference", "reference-stiff", "--out", "nowhere.toml"], "--out"),
+        (vec!["vibrate", scene, "--drive", "ground", "--plot", "always", "--json"], "--plot"),
+        (vec!["rheometer", "reference:padding", "--plot", "always", "--json"], "--plot"),
+        (cushion(&["--seed", "5"]), "--seed"),
+        (cushion(&["--scatter", "5"]), "--scatter"),
+        (cushion(&["--robust", "90%"]), "--robust"),
+    ] {
+        let output = run(&arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{arguments:?}");
+        assert!(said(&output).contains(option), "{arguments:?}: {}", err(&output));
+    }
+}
+
+#[test]
+fn options_that_do_something_are_taken() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", &PAD.replace("\"60 kN/m\"", "\"60 ± 3 kN/m\""));
+    let scene = text(&scene);
+    for arguments in [
+        vec!["run", scene, "--sample", "64", "--seed", "5"],
+        vec!["run", scene, "--sample", "64", "--curves", "--json"],
+        vec!["run", scene, "--sample", "64", "--method", "bdf", "--rtol", "1e-6"],
+        vec!["run", scene, "--sample", "64", "--variant", "K=80 kN/m", "--at", "5 ms", "--json"],
+    ] {
+        let output = run(&arguments);
+        assert_eq!(code(&output), 0, "{arguments:?}: {}", err(&output));
+    }
+}
+
+/// Each is refused before the work, with the memory that it takes and what to ask for instead.
+#[test]
+fn what_takes_too_much_memory_is_refused_with_the_figure() {
+    let room = TempDir::new().unwrap();
+    let many = PAD.replace("[run]", "[run]\nsamples = 10000000");
+    let (scene, many) = (file(&room, "pad.toml", PAD), file(&room, "many.toml", &many));
+    let (scene, many) = (text(&scene), text(&many));
+    let vary = ["--vary", "K=50..60 kN/m,10000", "--vary", "head.mass=4..5 kg,1000"];
+    let sweep = [&["sweep", scene], &vary[..], &["--measure", "pad.peak-force"]].concat();
+    for (arguments, told) in [
+        (vec!["run", many, "--json", "--curves"], "piece by piece"),
+        (sweep, "--parquet --out DIR"),
+        (vec!["sweep", scene, "--vary", "K=5,6 kN/m", "--threads", "100000"], "from 1 to 1024"),
+        (vec!["cushion", scene, "--threads", "100000"], "from 1 to 1024"),
+        (vec!["run", scene, "--sample", "10000000"], "from 1 to 1000000"),
+    ] {
+        let begun = Instant::now();
+        let output = run(&arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{arguments:?}");
+        assert!(said(&output).contains(told), "{arguments:?}: {}", err(&output));
+        assert!(begun.elapsed() < Duration::from_secs(10), "{arguments:?}");
+    }
+}
+
+#[test]
+fn numbers_without_a_unit_give_one_warning_and_an_error_where_that_is_asked_for() {
+    let room = TempDir::new().unwrap();
+    let bare =
+        PAD.replace("\"60 kN/m\"", "60e3").replace("\"5 kg\"", "5").replace("\"20 ms\"", "0.02");
+    let (scene, bare) = (file(&room, "pad.toml", PAD), file(&room, "bare.toml", &bare));
+    let (scene, bare) = (text(&scene), text(&bare));
+    for verb in [
+        vec!["run", bare],
+        vec!["check", bare],
+        vec!["explain", bare],
+        vec!["sweep", bare, "--vary", "head.velocity=1..2 m/s,3"],
+    ] {
+        let output = run(&verb);
+        assert_eq!(code(&output), 0, "{verb:?}: {}", err(&output));
+        assert_eq!(said(&output).matches("have no unit").count(), 1, "{verb:?}: {}", err(&output));
+        for part in
+            ["3 numbers have no unit", "`5` as kg in line 4", "`60e3` as N/m", "`0.02` as s"]
+        {
+            assert!(said(&output).contains(part), "{verb:?}: {}", err(&output));
+        }
+        let strict = run(&[&verb[..], &["--strict"]].concat());
+        assert_eq!((code(&strict), out(&strict).as_str()), (2, ""), "{verb:?}");
+        assert!(said(&strict).contains("error: 3 numbers have no unit"), "{}", err(&strict));
+    }
+    let output = run(&["run", scene, "--strict"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(!said(&output).contains("no unit"), "{}", err(&output));
+    // Pure numbers have none, and zero is zero in all units.
+    let zero = PAD.replace("\"80 N s/m\"", "0").replace("duration", "samples = 11\nduration");
+    let zero = file(&room, "zero.toml", &zero);
+    assert_eq!(code(&run(&["check", text(&zero), "--strict"])), 0);
+}
+
+#[test]
+fn shipped_scenes_have_units_throughout() {
+    for scene in scene_paths() {
+        let output = run(&["check", text(&scene), "--strict"]);
+        assert_eq!(code(&output), 0, "{}: {}", scene.display(), err(&output));
+    }
+    for scene in ["reference", "reference-stiff", "reference-gravity"] {
+        assert_eq!(code(&run(&["check", scene, "--strict"])), 0, "{scene}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn standard_input_is_offered_where_it_is_taken() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", PAD);
+    let table = PAD.replace("spring = \"K\"", "table-spring = \"/dev/null\"");
+    let table = file(&room, "table.toml", &table);
+    for (arguments, is_taken) in [
+        (vec!["run", "/dev/null"], true),
+        (vec!["sweep", text(&scene), "--points", "/dev/null"], false),
+        (vec!["run", text(&table)], false),
+    ] {
+        let output = run(&arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        let told = said(&output);
+        assert_eq!(told.contains("standard input is `-`"), is_taken, "{arguments:?}: {told}");
+    }
+}
+
+/// A long run that is broken off says so, and its folder is gone with its lock.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing_that_is_not_whole() {
+    let room = TempDir::new().unwrap();
+    let long = "[nodes]\nparcel = { mass = \"12 kg\" }\n\
+        bed = { motion = { sine = { amplitude = \"5 mm\", frequency = \"9 Hz\", phase = \"180 deg\" } } }\n\
+        [elements]\ncushion = { between = [\"parcel\", \"bed\"], kelvin-voigt = { spring = \"120 kN/m\", dashpot = \"480 N s/m\" } }\n\
+        [effects]\ngravity = { value = \"1 g0\" }\nseparation.cushion = { at = \"parcel\" }\n[run]\nduration = \"100000 s\"\n";
+    let scene = file(&room, "long.toml", long);
+    let folder = room.path().join("results");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dashpot"));
+    let command = command.args(["run", text(&scene), "--out", text(&folder)]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    while !folder.join(".dashpot-lock").exists() && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(20));
+    }
+    sleep(Duration::from_millis(300));
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", err(&output));
+    assert!(
+        said(&output).contains("interrupted: nothing of this call is kept"),
+        "{}",
+        err(&output)
+    );
+    assert!(!folder.exists());
+}
+
+/// What a killed process left beside the place of a text goes with the next one.
+#[test]
+fn a_part_that_was_left_is_removed() {
+    let room = TempDir::new().unwrap();
+    let left = room.path().join(".dashpot-0123456789abcdef-0.part");
+    let (new, foreign) =
+        (room.path().join(".dashpot-fedcba9876543210-0.part"), room.path().join("a.part"));
+    for own in [&left, &new, &foreign] {
+        fs::write(own, "half").unwrap();
+    }
+    let old = SystemTime::now() - Duration::from_secs(600);
+    for own in [&left, &foreign] {
+        File::options().write(true).open(own).unwrap().set_modified(old).unwrap();
+    }
+    assert_eq!(code(&run(&["man", "--out", text(room.path())])), 0);
+    assert!(!left.exists() && new.exists() && foreign.exists());
+}
