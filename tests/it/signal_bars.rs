@@ -133,7 +133,7 @@ fn a_force_over_the_mass_is_the_acceleration_of_a_free_striker() {
     for word in ["peak-displacement", "rebound-velocity", "energy-taken", "energy-absorbed"] {
         let [(one, error), (other, _)] = [&of_force, &of_it].map(|own| measure(own, word));
         assert!(
-            (one - other).abs() < 1e-6 * one.abs() + 1e-9 && error > 0.0,
+            (one - other).abs() < 1e-6 * one.abs() + 1e-9 && error >= 0.0,
             "{word}: {one} {other}"
         );
     }
@@ -265,7 +265,8 @@ fn records() -> Vec<Record> {
     for (rate, cfc) in [(20e3, None), (5e3, None), (20e3, Some(600.0)), (20e3, Some(180.0))] {
         for noise in [(1e-4, 0.0), (2e-3, 0.0), (2e-2, 0.0), (5e-3, 0.8)] {
             for (before, offset) in [(0.01, 0.0), (0.1, 5.0), (0.0, 0.0)] {
-                if noise.1 == 0.0 || before > 0.0 {
+                // What a filter makes of a pulse at the very end of a record is what stands beyond it.
+                if before > 0.0 || noise.1 == 0.0 && cfc.is_none() {
                     all.push(Record { before, rate, noise, cfc, offset });
                 }
             }
@@ -296,7 +297,7 @@ fn bars_hold_the_truth_of_noisy_records() {
 }
 
 #[test]
-#[ignore = "44 kinds of records with 400 repeats each take some minutes"]
+#[ignore = "38 kinds of records with 400 repeats each take some minutes"]
 fn bars_hold_the_truth_of_every_kind_of_noisy_record() {
     bars_hold(&records(), 400);
 }

@@ -57,7 +57,7 @@ impl Blow {
             return Self { touch: times[begin], error: step, begin, end };
         };
         let rise = times[risen] - times[next];
-        let hidden = if noise > 0.0 { rise } else { 0.0 };
+        let hidden = if noise > zero { rise } else { 0.0 };
         let back = value(next) * rise / (value(risen) - value(next));
         let touch = times[next] - back.clamp(0.0, step + hidden);
         let begin = times.partition_point(|time| *time <= touch).saturating_sub(1);

@@ -205,8 +205,8 @@ fn undecided(own: &Verdict<'_>, reason: Reason) -> String {
     let axes: String = own.signal.analysis.part.axes().into_iter().map(Axis::letter).collect();
     match reason {
         Reason::OtherAxes => format!(
-            "; of the axes {axes} alone, and it is one on the resultant of x, y and z; `--guided {axes}` where the rig lets \
-             the body move along no other"
+            "; {axes} alone is measured, and the limit is one on the resultant of x, y and z; `--guided {axes}` where the \
+             rig lets the body move along no other"
         ),
         Reason::Clipped => "; the record is clipped, and its peak was higher".to_owned(),
         Reason::Cut => "; the record begins or ends within the pulse".to_owned(),
