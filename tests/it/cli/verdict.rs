@@ -148,3 +148,20 @@ fn pad_that_bottoms_out_says_so_first() {
     assert!(verdict.lines().take(3).any(|line| line.contains("23.2 mm more than its")));
     assert!(verdict.contains(": 177 % of 30 mm, 23.2 mm MORE than"), "{verdict}");
 }
+
+#[test]
+fn what_is_large_is_not_zero_because_its_error_is_larger() {
+    // The error that 16 segments of a rod leave in the peak force is as large as the force.
+    let folder = TempDir::new().unwrap();
+    let scene = file(
+        &folder,
+        "rod.toml",
+        "[materials]\nsteel = { spring = \"200 GPa\" }\n[nodes]\nhammer = { mass = \"7.8 kg\", velocity = \"1 m/s\" }\n\
+         [elements.rod]\nbetween = [\"hammer\", \"ground\"]\nsegments = 16\nlayers = [{ material = \"steel\", thickness \
+         = \"1 m\", area = \"10 cm^2\", density = \"7800 kg/m^3\" }]\n[effects]\nseparation.rod = {}\n[run]\nduration \
+         = \"1 ms\"\n",
+    );
+    let page = out(&run(&["run", text(&scene)]));
+    assert!(page.contains("kN in rod at") && !page.contains(" 0 kN"), "{page}");
+    assert!(page.contains("of it in rod"), "the kinetic energy in the rod: {page}");
+}
