@@ -154,7 +154,7 @@ fn standard_input_is_offered_where_it_is_taken() {
     let table = file(&room, "table.toml", &table);
     for (arguments, is_taken) in [
         (vec!["run", "/dev/null"], true),
-        (vec!["sweep", text(&scene), "--points", "/dev/null"], false),
+        (vec!["sweep", text(&scene), "--points", "/dev/null"], true),
         (vec!["run", text(&table)], false),
     ] {
         let output = run(&arguments);

@@ -253,7 +253,8 @@ fn coverage(record: &Record, repeats: u64) -> Vec<(Measure, f64)> {
         for (at, (measure, truth)) in truths.iter().enumerate() {
             let reading = own.reading(*measure).unwrap();
             let off = (reading.value.unwrap() - truth).abs();
-            inside[at] += f64::from(u8::from(off <= reading.error * (1.0 + 1e-9)));
+            let rounding = 1e-12 * truth.abs();
+            inside[at] += f64::from(u8::from(off <= reading.error * (1.0 + 1e-9) + rounding));
         }
     }
     let share = |(own, inside): (&(Measure, f64), f64)| (own.0, inside / repeats as f64);

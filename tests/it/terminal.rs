@@ -183,10 +183,10 @@ fn a_body_that_nothing_brings_back_is_told_of_once() {
     let folder = TempDir::new().unwrap();
     let scene = |gravity: &str| {
         format!(
-            "[nodes]\nparcel = {{ mass = 3 }}\nbed = {{ motion = {{ sine = {{ amplitude = \"5 mm\", \
+            "[nodes]\nparcel = {{ mass = \"3 kg\" }}\nbed = {{ motion = {{ sine = {{ amplitude = \"5 mm\", \
              frequency = \"9 Hz\" }} }} }}\n[elements]\nfoam = {{ between = [\"parcel\", \"bed\"], \
-             kelvin-voigt = {{ spring = 9000, dashpot = 40 }} }}\n[effects]\nseparation.foam = {{}}\n\
-             {gravity}[run]\nduration = 1\n"
+             kelvin-voigt = {{ spring = \"9 kN/m\", dashpot = \"40 N s/m\" }} }}\n[effects]\nseparation.foam = {{}}\n\
+             {gravity}[run]\nduration = \"1 s\"\n"
         )
     };
     let told = |gravity: &str| {

@@ -204,6 +204,11 @@ impl Odds {
 }
 
 impl ScatterReport {
+    /// The part of what the distributions say that designs are drawn from; the rest is cut off.
+    pub fn within(&self) -> f64 {
+        self.sources.iter().map(|own| 1.0 - own.beyond).product()
+    }
+
     /// What a sweep over the designs of a sample tells.
     pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
         let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);

@@ -2,7 +2,7 @@
 
 use super::{MeasureReport, RunReport};
 use crate::{
-    Band, Chance, Contact, Warning,
+    Band, Chance, Contact, ScatterReport, Warning,
     limits::{Bound, Judgement, Limit, Reason},
 };
 
@@ -110,8 +110,10 @@ impl RunReport {
         let judgement = match sampled {
             None => {
                 let doubt = self.warnings.iter().find_map(|own| own.doubt(limit, false));
-                let wanted = self.scatter.as_ref().map_or(0.0, |own| own.wanted);
-                let is_rare = chance.is_some_and(|own| own.odds.share() < wanted);
+                let is_too_few = |own: &ScatterReport| {
+                    chance.is_some_and(|of| of.odds.share() * own.within() < own.wanted)
+                };
+                let is_rare = self.scatter.as_ref().is_some_and(is_too_few);
                 judgement.doubted(doubt.or(is_rare.then_some(Reason::Scatter)))
             }
             Some(_) => judged.of_sample().doubted(chance.and_then(Chance::doubt)),
