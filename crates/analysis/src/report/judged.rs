@@ -113,7 +113,7 @@ impl RunReport {
                 let is_too_few = |own: &ScatterReport| {
                     chance.is_some_and(|of| of.odds.share() * own.within() < own.wanted)
                 };
-                let is_rare = self.scatter.as_ref().is_some_and(is_too_few);
+                let is_rare = self.scatter.as_deref().is_some_and(is_too_few);
                 judgement.doubted(doubt.or(is_rare.then_some(Reason::Scatter)))
             }
             Some(_) => judged.of_sample().doubted(chance.and_then(Chance::doubt)),
