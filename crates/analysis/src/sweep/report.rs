@@ -94,7 +94,10 @@ impl SweepReport {
     /// What could not be evaluated, each place by its number and by none of its values; infinite values are known.
     pub fn unevaluated(&self) -> Unevaluated {
         let missing = || self.gaps.iter().filter(|own| !own.is_infinite);
-        let causes = missing().map(|own| (&own.cause, own.point));
+        // A measure and what else is made of it lack one value.
+        let mut seen = BTreeSet::new();
+        let causes = missing().filter(|own| seen.insert((own.point, &own.cause.of)));
+        let causes = causes.map(|own| (&own.cause, own.point));
         let points: BTreeSet<usize> = missing().map(|own| own.point).collect();
         Unevaluated { count: points.len(), ..Unevaluated::at(self.points(), causes) }
     }
