@@ -98,6 +98,15 @@ def points(own):
     return "[" + ", ".join(f"[{y!r}, {f!r}]" for y, f in own) + "]"
 
 
+def table_loop(loading, unloading):
+    text = f"hysteretic-table = {{ loading = {points(loading)}, unloading = {points(unloading)} }}"
+    return Leaf(laws.hysteretic_table(loading, unloading), text)
+
+
+def table_spring(own, c):
+    return Beside(Leaf(laws.TableSpring(own), f"table-spring = {points(own)}"), dashpot(c))
+
+
 def pulls(tree):
     """Whether it can pull by its law."""
     if isinstance(tree, Leaf):
@@ -289,8 +298,7 @@ def own_contact(dice, s):
         for y, part in ((low, dice.between(0.1, 0.3)), (high, dice.between(0.4, 0.8))):
             unloading.append((y, float(f"{part * float(first.at(y)):.6g}")))
         unloading.append(loading[-1])
-        text = f"hysteretic-table = {{ loading = {points(loading)}, unloading = {points(unloading)} }}"
-        return Leaf(laws.hysteretic_table(loading, unloading), text)
+        return table_loop(loading, unloading)
     own, rest, q = foam_numbers(dice, s), dice.between(0, 0.4), dice.pick(1.0, 2.0, 1.5)
     words = ", ".join(f"{k} = {v!r}" for k, v in own.items())
     text = f"hysteretic-foam = {{ {words}, set = {rest!r}, unloading-exponent = {q!r} }}"

@@ -20,8 +20,11 @@ from models import (
     kelvin,
     law,
     materials,
+    maxwell,
     pulls,
     spring,
+    table_loop,
+    table_spring,
     zener,
     dashpot,
 )
@@ -306,6 +309,99 @@ def driven(dice):
     return scene, s, r(s.t * dice.between(1.0, 3.5))
 
 
+def equal(dice):
+    """Masses, links or branches that are alike, so that eigenvalues coincide or their differences vanish."""
+    s = Scales(dice)
+    scene = Scene("equal")
+    r = lambda own: float(f"{own:.6g}")
+    m, v = r(s.m), r(s.v)
+    word = dice.pick("pair", "pair", "row", "ratios", "twins", "branches", "wall")
+    kinds = ("linear", "elastic", "contact", "rate")
+    first = dice.pick(lambda: law(dice, s, dice.pick(*kinds)), lambda: elastic(dice, s), lambda: spring(r(s.k)))()
+    scene.node("head", m, v)
+    apart = {"separation": 0.0} if pulls(first) and dice.chance(0.5) else {}
+    if word in ("pair", "wall"):
+        scene.node("panel", m)
+        scene.element("pad", "head", "panel", first, **apart)
+        if word == "wall":
+            gap = r(dice.between(0.1, 1) * s.y)
+            scene.element("bump", "panel", "ground", Row(contact(gap), kelvin(r(3 * s.k), r(0.05 * s.c))))
+    elif word in ("row", "ratios"):
+        masses = [m, r(2 * m)] if word == "ratios" else [m] * dice.pick(2, 3, 4)
+        link = dice.pick(spring(r(s.k)), kelvin(r(s.k), r(0.1 * s.c)), elastic(dice, s))
+        before = "head"
+        for at, own in enumerate(masses):
+            scene.node(f"wagon-{at}", own)
+            scene.element(f"link-{at}", before, f"wagon-{at}", first if at == 0 else link, **(apart if at == 0 else {}))
+            before = f"wagon-{at}"
+        if dice.chance(0.5):
+            scene.element("buffer", before, "ground", link)
+    elif word == "twins":
+        # Two alike on the struck mass: one of their modes is never excited.
+        scene.element("pad", "head", "ground", first, **apart)
+        branch = dice.pick(spring(r(s.k)), kelvin(r(s.k), r(0.1 * s.c)), elastic(dice, s))
+        for name in ("left", "right"):
+            scene.node(name, r(0.5 * m), v)
+            scene.element(f"arm-{name}", "head", name, branch)
+    else:
+        k, c, n = r(s.k), r(dice.spread(0.1, 0.6) * s.c), dice.pick(2, 3)
+        branch = dice.pick(maxwell(k, c), Row(*[kelvin(r(n * s.k), c)] * n), zener(k, k, c))
+        scene.element("pad", "head", "ground", Beside(spring(k), *[branch] * n), **apart)
+    return scene, s, r(s.t * dice.between(0.8, 3.0))
+
+
+def curves(dice):
+    """A head on a pad of measured points, few or many, on a straight line or on a bent one."""
+    s = Scales(dice)
+    scene = Scene("curves")
+    r = lambda own: float(f"{own:.6g}")
+    scene.node("head", r(s.m), r(s.v))
+    depth, power = 2.5 * s.y, dice.pick(1.0, dice.between(1.1, 2.5))
+
+    def load(y):
+        return 1.5 * s.f * (y / depth) ** power
+
+    def points(count, first, of):
+        inner = sorted(dice.between(first + 0.02 * depth, 0.98 * depth) for _ in range(count - 2))
+        spread = [first] + [own for a, own in zip([first, *inner], inner) if own - a > 0.01 * depth] + [depth]
+        return [(r(own), r(of(own))) for own in spread]
+
+    loading = points(dice.pick(2, 2, 3, 5, 12, 30), 0.0, load)
+    if dice.chance(0.5):
+        below = points(dice.pick(2, 3, 6), 0.0, lambda y: 1.2 * load(y))[1:]
+        own = [(-y, -f) for y, f in reversed(below)] + loading
+        scene.element("pad", "head", "ground", table_spring(own, r(dice.spread(0.02, 0.3) * s.c)), separation=0.0)
+    else:
+        rest, bend = dice.between(0.05, 0.3) * depth, dice.pick(1.0, dice.between(1, 2))
+        back = points(dice.pick(2, 2, 3, 8), rest, lambda y: load(depth) * ((y - rest) / (depth - rest)) ** bend)
+        scene.element("pad", "head", "ground", table_loop(loading, back))
+    return scene, s, r(s.t * dice.between(1.0, 3.0))
+
+
+def humps(dice):
+    """A head in a box that is pushed several times, of nearly equal size."""
+    s = Scales(dice)
+    scene = Scene("humps")
+    r = lambda own: float(f"{own:.6g}")
+    scene.node("head", r(s.m))
+    scene.node("box", r(s.m * dice.spread(0.5, 4)))
+    scene.element("wrap", "head", "box", law(dice, s, dice.pick("linear", "linear", "elastic", "rate")))
+    scene.element("mount", "box", "ground", kelvin(r(0.3 * s.k), r(dice.spread(0.05, 0.4) * s.c)))
+    start = 0.0
+    for at in range(dice.pick(2, 2, 3, 4)):
+        wave = dice.pick(waves.half_sine, waves.haversine)
+        length = s.t * dice.between(0.3, 1.2)
+        scene.load(f"push-{at}", "box", wave(r(-s.f * dice.between(0.85, 1.0)), r(length), r(start)))
+        start += length * dice.between(0.6, 1.8)
+    return scene, s, r(start + s.t * dice.between(0.3, 1.0))
+
+
+# Seeds from here on draw those kinds that came later: others keep their scenes.
+LATER = 100_000
+
+
 def draw(seed):
     dice = Dice(seed)
+    if seed >= LATER:
+        return dice.pick(equal, curves, humps)(dice)
     return dice.pick(struck, struck, struck, driven, driven, meeting, parcel)(dice)
