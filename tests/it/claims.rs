@@ -165,6 +165,68 @@ fn a_round_body_in_by_more_than_its_radius_is_not_evaluated() {
     assert_eq!((own["claimed"].as_bool(), kinds), (Some(false), vec![&"beyond".into()]));
     let told = out(&run(&["design", &path, "--solve-for", "liner.thickness", "--sample", "30"]));
     assert_eq!(labels(&told)[0], "UNDECIDED", "{told}");
+    // It exceeds the limit by a law that does not hold there.
+    let limit = ["--limit", "head.peak-acceleration<=1 g"];
+    let own = json(&[&["run", &path, "--json"], &limit[..]].concat());
+    let judged = &own["runs"][0]["limits"].as_array().unwrap().last().unwrap().clone();
+    assert_eq!((&judged["verdict"], &judged["reason"]), (&"undecided".into(), &"no-law".into()));
+    let vary = "head.velocity=0.05..5.4 m/s,4,log";
+    let own = json(&[&["sweep", &path, "--vary", vary, "--json"], &limit[..]].concat());
+    let judged = own["limits"].as_array().unwrap().last().unwrap();
+    let verdicts: Vec<&str> =
+        judged["verdicts"].as_array().unwrap().iter().map(|own| own.as_str().unwrap()).collect();
+    assert_eq!(verdicts.last(), Some(&"undecided"), "{judged}");
+    assert!(verdicts.contains(&"pass") || verdicts.contains(&"fail"), "{judged}");
+}
+
+#[test]
+fn what_rounding_leaves_of_zero_is_zero_in_every_study() {
+    // A spring gives back all that it takes up.
+    let pad = |spring: &str| {
+        format!(
+            "[values]\nK = \"60 kN/m\"\n[nodes]\nhead = {{ mass = \"4 kg\", velocity = \"2 m/s\" }}\n[elements]\n\
+             pad = {{ between = [\"head\", \"ground\"], {spring} }}\n[effects]\nseparation.pad = {{ at = \"head\" }}\n\
+             [run]\nduration = \"60 ms\"\nsamples = 301\n"
+        )
+    };
+    let linear = "spring = \"K\"";
+    let cubic = "cubic-spring = { stiffness = \"K\", cubic = \"3e8 N/m^3\" }";
+    for (spring, method) in [(linear, "exact"), (linear, "bdf"), (cubic, "dop853"), (cubic, "bdf")]
+    {
+        let (folder, path) = written(&pad(spring));
+        let own = json(&["run", &path, "--method", method, "--json"]);
+        let energy = &own["runs"][0]["measures"]["pad.energy"];
+        assert_eq!(energy["value"].as_f64(), Some(0.0), "{method}: {energy}");
+        assert!(energy["error"].as_f64().unwrap() < 1e-3, "{method}: {energy}");
+        let vary = "K=40..60 kN/m,3";
+        let own = json(&["sweep", &path, "--vary", vary, "--measure", "pad.energy", "--json"]);
+        assert!(
+            own["measures"][0]["values"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .all(|own| own == 0.0),
+            "{own}"
+        );
+        let text = out(&run(&[
+            "design",
+            &path,
+            "--vary",
+            "K=40..60 kN/m",
+            "--least",
+            "pad.energy",
+            "--sample",
+            "8",
+        ]));
+        assert!(text.contains("pad.energy 0 J"), "{text}");
+        let base = folder.path().join("base");
+        let base = base.to_str().unwrap();
+        assert_eq!(code(&run(&["run", &path, "--method", method, "--out", base])), 0);
+        let record = format!("{base}/{method}.csv:pad.force=pad.force");
+        let text = out(&run(&["fit", &path, "--vary", "K=10..1000 kN/m", "--to", &record]));
+        let energy = text.lines().find(|own| own.contains("pad.energy ")).unwrap();
+        assert!(energy.contains(" 0 J "), "{energy}");
+    }
 }
 
 #[test]

@@ -228,7 +228,7 @@ impl ScatterReport {
             Chance {
                 limit: limit.clone(),
                 odds: Odds::of(slice::from_ref(judged)),
-                beyond: count(Reason::Beyond),
+                beyond: count(Reason::Beyond) + count(Reason::NoLaw),
                 outside: count(Reason::Outside),
             }
         };

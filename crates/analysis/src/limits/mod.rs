@@ -54,6 +54,8 @@ pub enum Reason {
     /// It keeps the limit, but stands on something that is pressed further than is known of it: beyond the points
     /// of its law, or beyond its thickness.
     Beyond,
+    /// It stands on something that is pressed to where its law does not hold, neither from above nor from below.
+    NoLaw,
     /// It keeps the limit in the impact, which a harder blow outside of it exceeds.
     Outside,
     /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
@@ -65,18 +67,25 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `harder-outside`, `other-axes`, `clipped` or `scatter`.
+    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `no-law`, `harder-outside`, `other-axes`,
+    /// `clipped` or `scatter`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Error => "error",
             Self::NoValue => "no-value",
             Self::Cut => "cut",
             Self::Beyond => "beyond-known",
+            Self::NoLaw => "no-law",
             Self::Outside => "harder-outside",
             Self::OtherAxes => "other-axes",
             Self::Clipped => "clipped",
             Self::Scatter => "scatter",
         }
+    }
+
+    /// The one that counts of several: that no law holds, else the first.
+    pub(crate) fn first(mut all: impl Iterator<Item = Self> + Clone) -> Option<Self> {
+        all.clone().find(|own| *own == Self::NoLaw).or_else(|| all.next())
     }
 }
 
@@ -90,11 +99,12 @@ impl Judgement {
     }
 
     /// The same of a run about which there is a `doubt`: nothing is kept there for certain. What is exceeded stays
-    /// so, and of a run that is cut short the doubt comes first: a longer one would not take it away.
+    /// so where a law holds, and of a run that is cut short the doubt comes first: a longer one would not take it away.
     #[must_use]
     pub fn doubted(self, doubt: Option<Reason>) -> Self {
         match (self, doubt) {
-            (Self::Pass | Self::Undecided(Reason::Cut), Some(doubt)) => Self::Undecided(doubt),
+            (Self::Pass | Self::Undecided(Reason::Cut), Some(doubt))
+            | (Self::Fail, Some(doubt @ Reason::NoLaw)) => Self::Undecided(doubt),
             (own, _) => own,
         }
     }
@@ -262,6 +272,8 @@ mod tests {
             assert_eq!(Undecided(Reason::Error).doubted(Some(doubt)), Undecided(Reason::Error));
             assert_eq!(Undecided(Reason::Cut).doubted(Some(doubt)), Undecided(doubt));
         }
+        // Where no law holds, nothing is exceeded either.
+        assert_eq!(Fail.doubted(Some(Reason::NoLaw)), Undecided(Reason::NoLaw));
     }
 
     #[test]

@@ -13,6 +13,7 @@ use crate::{
     report::{
         compression::{Compression, ROUNDING},
         curves::Struck,
+        zeros::settle_zeros,
     },
     run::{events, outcome::measure_report},
 };
@@ -155,7 +156,9 @@ impl Told {
             let error = Some(self.errors[at]).filter(|error| !error.is_nan());
             measure_report(entry, reading, error, scene.settings.accuracy.of(&entry.key))
         };
-        (0..scene.selected.len()).map(report).collect()
+        let mut reports: Vec<MeasureReport> = (0..scene.selected.len()).map(report).collect();
+        settle_zeros(&mut reports, self.size_of_work, 0.0);
+        reports
     }
 
     /// The phase in which the contact begins, and what switches.

@@ -109,7 +109,8 @@ impl RunReport {
         let judged = Judged { limit, measure, judgement, chance, sampled };
         let judgement = match sampled {
             None => {
-                let doubt = self.warnings.iter().find_map(|own| own.doubt(limit, false));
+                let doubts = self.warnings.iter().filter_map(|own| own.doubt(limit, false));
+                let doubt = Reason::first(doubts);
                 let is_too_few = |own: &ScatterReport| {
                     chance.is_some_and(|of| of.odds.share() * own.within() < own.wanted)
                 };

@@ -11,6 +11,7 @@ pub(crate) mod sample;
 pub(crate) mod serialized;
 pub mod verdict;
 pub(crate) mod warning;
+pub(crate) mod zeros;
 
 use std::{collections::HashMap, sync::Arc, time::Duration};
 

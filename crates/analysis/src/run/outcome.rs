@@ -28,6 +28,7 @@ use crate::{
     },
     measures::{ContactTime, Impulse, PeakForce, selection::Selected},
     memory::is_large,
+    report::zeros::settle_zeros,
 };
 
 /// The report of a run by the method of the task; what it took in all, and why it was that method, are
@@ -56,7 +57,9 @@ pub(super) fn report(
     let (settings, energy) = (task.settings, &solved.balance(assembly).energy);
     let cut = (run.t_end < settings.duration).then_some(run.t_end);
     let idle = idle_times(&solution);
-    let measures = measures(task, (&solution, energy, &idle), readings, errors, cut);
+    let mut measures = measures(task, (&solution, energy, &idle), readings, errors, cut);
+    let rtol = if task.method.is_exact() { 0.0 } else { solved.rtol };
+    settle_zeros(&mut measures, energy.turned_over, rtol);
     let contacts = contact_reports(&solution);
     let impact = solution.scene_impact();
     let is_known = solved.trajectory.digest().is_none() || impact.end >= solution.end();
@@ -157,7 +160,7 @@ fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
 
 /// The reports of a task's measures, of which these are the readings and their errors, where the solution is
 /// followed to the time `cut` \[s\] only.
-pub(super) fn measures(
+fn measures(
     task: &Task<'_>,
     (solution, energy, idle): (&Solution<'_>, &Ledger, &[Idle]),
     readings: Vec<Reading>,

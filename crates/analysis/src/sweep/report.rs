@@ -126,12 +126,14 @@ impl SweepReport {
         .collect()
     }
 
-    /// Why a limit that is kept may not be, at each point.
+    /// Why it is not known whether a limit is kept, at each point.
     pub fn doubts(&self, limit: &Limit) -> Vec<Option<Reason>> {
         let mut doubts = vec![None; self.points()];
         for own in &self.warnings {
             let doubt = own.warning.doubt(limit, own.points.len() > 1);
-            own.points.iter().for_each(|&point| doubts[point] = doubts[point].or(doubt));
+            for &point in &own.points {
+                doubts[point] = Reason::first([doubts[point], doubt].into_iter().flatten());
+            }
         }
         doubts
     }

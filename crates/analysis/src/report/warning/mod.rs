@@ -238,7 +238,7 @@ impl Warning {
         }
     }
 
-    /// Why a limit that is kept may not be, where the warning says so. One that stands for several runs has the
+    /// Why it is not known whether a limit is kept, where the warning says so. One that stands for several runs has the
     /// numbers of one of them alone: then it `stands_for_others`.
     pub fn doubt(&self, limit: &Limit, stands_for_others: bool) -> Option<Reason> {
         match self {
@@ -247,6 +247,7 @@ impl Warning {
                 let is_exceeded = matches!(limit.bound, Bound::Max(most) if own.outside > most);
                 (is_exceeded || stands_for_others).then_some(Reason::Outside)
             }
+            Self::BeyondLaw(Beyond { at_equator: true, .. }) => Some(Reason::NoLaw),
             own => own.is_beyond_known().then_some(Reason::Beyond),
         }
     }

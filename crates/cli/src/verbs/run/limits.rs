@@ -74,13 +74,17 @@ fn doubt(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
 
 /// What is left to the bound; nothing where the value hangs on what is not known.
 fn margin(judged: &Judged<'_>) -> Option<String> {
-    let is_known = judged.judgement != Judgement::Undecided(Reason::Beyond);
-    judged.margin().filter(|_| is_known).map(percent_signed)
+    judged.margin().filter(|_| !is_beyond(judged)).map(percent_signed)
+}
+
+/// Whether it hangs on something that is pressed further than is known of it.
+fn is_beyond(judged: &Judged<'_>) -> bool {
+    matches!(judged.judgement, Judgement::Undecided(Reason::Beyond | Reason::NoLaw))
 }
 
 /// What a limit hangs on that would be kept, where something is pressed further than is known of it.
 fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
-    if judged.judgement != Judgement::Undecided(Reason::Beyond) {
+    if !is_beyond(judged) {
         return None;
     }
     // Of a sample it is single designs that are.
@@ -90,13 +94,16 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         let designs = counted(designs, "design");
         return Some(format!("{designs} of the sample {are} pressed beyond a law or a thickness"));
     };
+    let at_equator = run.beyond_known().find_map(|own| match own {
+        Warning::BeyondLaw(own) => Some(&own.name).filter(|_| own.at_equator),
+        _ => None,
+    });
+    if let Some(name) = at_equator {
+        return Some(format!(
+            "it hangs on {name} deeper in than the radius of its body, where its shape is not modelled"
+        ));
+    }
     let what = match warning {
-        Warning::BeyondLaw(own) if own.at_equator => {
-            format!(
-                "{} deeper in than the radius of its body, where its shape is not modelled",
-                own.name
-            )
-        }
         Warning::BeyondLaw(own) => format!(
             "{} beyond the points of its law, where a foam that densifies is stiffer than the straight line that is \
              taken",
@@ -210,6 +217,7 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         }
         Reason::Error if is_of_run => {}
         Reason::Beyond
+        | Reason::NoLaw
         | Reason::Outside
         | Reason::NoValue
         | Reason::OtherAxes

@@ -120,20 +120,20 @@ fn build(side: &Side<'_>, block: &Block<'_>) -> Table {
     let [all_runs, shown_runs] = [&side.columns, block.runs]
         .map(|runs| runs.iter().map(|own| own.run.by_key()).collect::<Vec<_>>());
     let kinds = Kinds::of(&side.columns);
-    let zeros = Zeros::of(side.runs());
     let mut rows = Vec::new();
     for (key, first) in &kinds.measures {
         let all = all_runs.iter().filter_map(|run| run.get(key)).copied();
         let readings: Vec<Option<&MeasureReport>> =
             shown_runs.iter().map(|run| run.get(key).copied()).collect();
         let apart = apart.get(key);
-        for (at, unit) in units(all, first, &zeros).iter().enumerate() {
+        let largest = || largest(side.runs(), first.unit);
+        for (at, unit) in units(all, first, largest).iter().enumerate() {
             let main = at == 0;
             let mut row = vec![if main { kinds.name(first) } else { String::new() }];
             for reading in &readings {
-                row.push(reading.map_or("–".to_owned(), |reading| value(reading, unit, &zeros)));
+                row.push(reading.map_or("–".to_owned(), |reading| value(reading, unit)));
                 if block.errors {
-                    let text = |measure_report: &MeasureReport| error(measure_report, unit, &zeros);
+                    let text = |measure_report: &MeasureReport| error(measure_report, unit);
                     row.push(reading.filter(|_| main).map_or(String::new(), text));
                 }
             }
@@ -204,18 +204,14 @@ fn told_apart(measure: &MeasureReport) -> String {
 fn units<'r>(
     readings: impl Iterator<Item = &'r MeasureReport>,
     first: &MeasureReport,
-    zeros: &Zeros,
+    largest: impl FnOnce() -> f64,
 ) -> Vec<Unit> {
-    let largest = readings
-        .filter(|reading| !zeros.has(reading))
-        .filter_map(|reading| reading.value)
-        .map(f64::abs)
-        .fold(0.0, f64::max);
+    let most = readings.filter_map(|own| own.value).map(f64::abs).fold(0.0, f64::max);
     match (unit_of_kind(first.kind, first.unit), first.unit) {
         (Some(own), "m/s^2") => vec![own, Unit::plain(first.unit)],
         (Some(own), _) => vec![own],
-        (None, si) if largest > 0.0 => vec![Unit::suiting(largest, si)],
-        (None, _) => vec![zeros.unit(first)],
+        (None, si) if most > 0.0 => vec![Unit::suiting(most, si)],
+        (None, _) => vec![unit_of_zero(first, largest())],
     }
 }
 
@@ -249,21 +245,21 @@ pub(super) fn is_hic(kind: &str) -> bool {
     [Hic::KIND, Hic15::KIND, Hic36::KIND].contains(&kind)
 }
 
-fn value(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+fn value(measure: &MeasureReport, unit: &Unit) -> String {
     match measure.value {
         None if measure.is_undetermined => "not determined".to_owned(),
         None => "–".to_owned(),
-        Some(_) if zeros.has(measure) => "0".to_owned(),
+        Some(_) if is_zero(measure) => "0".to_owned(),
         Some(value) => unit.number(value, numbers::digits(value, measure.error, MOST_DIGITS)),
     }
 }
 
 /// The error relative to the value; that of what is next to nothing in its unit.
-fn error(measure: &MeasureReport, unit: &Unit, zeros: &Zeros) -> String {
+fn error(measure: &MeasureReport, unit: &Unit) -> String {
     let Some(absolute) = measure.error.filter(|_| measure.value.is_some()) else {
         return "–".to_owned();
     };
-    if zeros.has(measure) || measure.is_next_to_nothing() {
+    if is_zero(measure) || measure.is_next_to_nothing() {
         // The unit stands behind it.
         return format!("±{}", unit.number(absolute, 1));
     }
@@ -287,71 +283,32 @@ pub(super) fn notes(answer: &Answer) -> Vec<String> {
     notes.into_iter().map(|(note, keys)| format!("{}: {note}", keys.join(", "))).collect()
 }
 
-/// What is smaller than this part of its size is what rounding leaves of zero.
+/// Errors below this part of a size are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Beside its size, a value below this part of it may be zero.
-const SMALL: f64 = 0.1;
-
-/// The sizes that the measures of some runs have, by unit; what vanishes beside them is zero.
-pub(super) struct Zeros {
-    /// Each SI unit with the largest value that is measured in it.
-    largest: Vec<(&'static str, f64)>,
-    /// The coarsest relative tolerance: without errors, digits beyond it are not to be told from zero.
-    tolerance: f64,
+/// Whether a measure has a value that cannot be told from zero.
+pub(super) fn is_zero(measure: &MeasureReport) -> bool {
+    measure.value == Some(0.0)
 }
 
-impl Zeros {
-    /// Looks at all measures of these runs, and at the energy that they turn over.
-    pub(super) fn of<'r>(runs: impl Iterator<Item = &'r RunReport>) -> Self {
-        let mut zeros = Self { largest: Vec::new(), tolerance: 0.0 };
-        for run in runs {
-            zeros.tolerance = zeros.tolerance.max(run.solver.rtol.unwrap_or(0.0));
-            for measure in &run.measures {
-                zeros.add(measure.unit, measure.value.unwrap_or(0.0).abs());
-            }
-            zeros.add("J", run.energy.turned_over);
-        }
-        zeros
+/// The unit of a zero: that of its size, or of the `largest` value that is measured so. A value that is lost in its
+/// error has that of the error instead, which may be far below its size.
+pub(super) fn unit_of_zero(measure: &MeasureReport, largest: f64) -> Unit {
+    let error = measure.error.filter(|error| error.is_finite()).unwrap_or(0.0);
+    let own = if error > ROUNDING * measure.size { error } else { measure.size };
+    match largest.max(own) {
+        0.0 => Unit::plain(measure.unit),
+        size => Unit::suiting(size, measure.unit),
     }
+}
 
-    fn add(&mut self, unit: &'static str, value: f64) {
-        match self.largest.iter_mut().find(|(known, _)| *known == unit) {
-            Some((_, largest)) => *largest = largest.max(value),
-            None => self.largest.push((unit, value)),
-        }
-    }
-
-    /// The largest value that is measured in a unit.
-    pub(super) fn largest(&self, unit: &str) -> f64 {
-        self.largest.iter().find(|(known, _)| *known == unit).map_or(0.0, |own| own.1)
-    }
-
-    /// Whether a measure has a value that cannot be told from zero.
-    pub(super) fn has(&self, measure: &MeasureReport) -> bool {
-        let error = measure.error.filter(|error| error.is_finite()).unwrap_or(0.0);
-        // A time, an index or a ratio is not small because another one is large.
-        let of_unit = match measure.unit {
-            "J" | "N" | "m" | "N s" => self.largest(measure.unit),
-            _ => 0.0,
-        };
-        let tolerance = if measure.error.is_none() { self.tolerance } else { 0.0 };
-        let size = measure.size.max(of_unit);
-        let rounding = tolerance.max(ROUNDING) * size;
-        // What is as large as anything of its kind is not zero because nothing is known of it.
-        let error =
-            if measure.value.is_some_and(|own| own.abs() < SMALL * size) { error } else { 0.0 };
-        measure.value.is_some_and(|value| value.abs() <= error.max(rounding))
-    }
-
-    /// The unit of a zero: that of its size, or of what else is measured so. A value that is lost in
-    /// its error has that of the error instead, which may be far below its size.
-    pub(super) fn unit(&self, measure: &MeasureReport) -> Unit {
-        let error = measure.error.filter(|error| error.is_finite()).unwrap_or(0.0);
-        let own = if error > ROUNDING * measure.size { error } else { measure.size };
-        match self.largest(measure.unit).max(own) {
-            0.0 => Unit::plain(measure.unit),
-            size => Unit::suiting(size, measure.unit),
-        }
-    }
+/// The largest value that is measured in an SI unit in these runs, or the energy that they turn over.
+pub(super) fn largest<'r>(runs: impl Iterator<Item = &'r RunReport>, unit: &str) -> f64 {
+    let of_run = |run: &RunReport| {
+        let alike = run.measures.iter().filter(|own| own.unit == unit);
+        let values = alike.filter_map(|own| own.value).map(f64::abs);
+        let energy = if unit == "J" { run.energy.turned_over } else { 0.0 };
+        values.fold(energy, f64::max)
+    };
+    runs.map(of_run).fold(0.0, f64::max)
 }

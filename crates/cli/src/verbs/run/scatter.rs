@@ -13,7 +13,7 @@ use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, pose, read
 use dashpot_units::percent;
 
 use super::{
-    measures::{Side, Zeros, unit_of_kind},
+    measures::{Side, is_zero, largest, unit_of_kind},
     verdict::Line,
 };
 use crate::{
@@ -264,7 +264,6 @@ fn in_percent(share: f64) -> String {
 pub(crate) fn table(run: &RunReport) -> Option<Table> {
     let own = run.scatter.as_ref()?;
     let header = ["measure", "mean", "standard\ndeviation", "2.5 %", "97.5 %", "unit"];
-    let zeros = Zeros::of(std::iter::once(run));
     let bands = own.bands.iter().filter(|own| run.told().any(|told| told.key == own.key));
     let bands: Vec<&Band> = bands.collect();
     // A band is that of the designs that have a value.
@@ -272,7 +271,7 @@ pub(crate) fn table(run: &RunReport) -> Option<Table> {
     let header = header.into_iter().chain((!is_whole).then_some("of the\ndesigns"));
     let rows = bands.iter().map(|band| {
         let share = (!is_whole).then(|| covered(band));
-        row(run, band, &zeros).into_iter().chain(share).collect()
+        row(run, band).into_iter().chain(share).collect()
     });
     Some(Table::new("Scatter", &header.collect::<Vec<_>>(), rows))
 }
@@ -290,12 +289,11 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
             keys.push(band);
         }
     }
-    let zeros = Zeros::of(side.columns.iter().map(|own| own.run));
     let row = |first: &&Band| {
         let of = |own: &Vec<Band>| own.iter().find(|band| band.key == first.key).cloned();
         let found: Vec<Option<Band>> = all.iter().map(of).collect();
         let kind = side.columns.iter().find_map(|own| own.run.measure(&first.key));
-        let rounding = ROUNDING * zeros.largest(first.unit);
+        let rounding = ROUNDING * largest(side.columns.iter().map(|own| own.run), first.unit);
         let unit = unit_of(kind.map_or("", |own| own.kind), found.iter().flatten(), rounding);
         let cell = |own: &Option<Band>| {
             let [_, _, low, high] = own
@@ -319,13 +317,13 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
     })
 }
 
-fn row(run: &RunReport, band: &Band, zeros: &Zeros) -> Vec<String> {
+fn row(run: &RunReport, band: &Band) -> Vec<String> {
     let measure = run.measure(&band.key);
     let kind = measure.map_or("", |own| own.kind);
     // What the run cannot tell from zero, its designs cannot either.
-    let zero = measure
-        .and_then(|own| own.error.filter(|error| own.value.is_some_and(|own| own.abs() <= *error)));
-    let rounding = zero.unwrap_or(0.0).max(ROUNDING * zeros.largest(band.unit));
+    let zero = measure.filter(|own| is_zero(own)).and_then(|own| own.error);
+    let largest = largest(std::iter::once(run), band.unit);
+    let rounding = zero.unwrap_or(0.0).max(ROUNDING * largest);
     let unit = unit_of(kind, [band].into_iter(), rounding);
     let [mean, deviation, low, high] = cells(band, &unit, rounding);
     vec![band.key.clone(), mean, deviation, low, high, unit.symbol.clone()]

@@ -11,7 +11,7 @@ use dashpot_units::percent;
 
 use super::{
     Answer, limits,
-    measures::{Zeros, is_hic, is_index},
+    measures::{is_hic, is_index, is_zero, largest, unit_of_zero},
     scatter,
 };
 use crate::numbers::{
@@ -55,7 +55,7 @@ pub(crate) struct Line {
 /// What a person wants to know first, from the most accurate run.
 pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
     let Some(run) = answer.best() else { return Vec::new() };
-    let words = Words { answer, run, zeros: Zeros::of(answer.runs.iter()) };
+    let words = Words { answer, run };
     let found = Verdict::of(run);
     let peak_force = || found.peak_force.map(|peak| words.peak(peak, " in "));
     let [force, of_it] = match found.whole_force {
@@ -103,21 +103,21 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
 struct Words<'a> {
     answer: &'a Answer,
     run: &'a RunReport,
-    zeros: Zeros,
 }
 
 impl Words<'_> {
     fn shown(&self, measure: &MeasureReport, value: f64) -> String {
-        if self.zeros.has(measure) {
-            return format!("0 {}", self.zeros.unit(measure).symbol);
+        if is_zero(measure) {
+            let largest = largest(self.answer.runs.iter(), measure.unit);
+            return format!("0 {}", unit_of_zero(measure, largest).symbol);
         }
         quantity(value, measure.unit, numbers::digits(value, measure.error, DIGITS))
     }
 
     /// Where, behind this word, and when, and what else is to be said.
-    fn whereabouts(&self, word: &str, measure: &MeasureReport, is_so_far: bool) -> String {
+    fn whereabouts(word: &str, measure: &MeasureReport, is_so_far: bool) -> String {
         // A zero is there at any time.
-        let time = measure.time.filter(|_| !self.zeros.has(measure));
+        let time = measure.time.filter(|_| !is_zero(measure));
         let time = time.map(|time| format!(" at {}", quantity(time, "s", TIME_DIGITS)));
         // Which way it points, as in `in tension`; other notes stand below the table.
         let notes: Vec<Note> =
@@ -133,7 +133,7 @@ impl Words<'_> {
         match peak {
             Peak::Infinite { measure, time } => infinite(word, measure, time),
             Peak::Finite { measure, value, is_so_far } => {
-                self.shown(measure, value) + &self.whereabouts(word, measure, is_so_far)
+                self.shown(measure, value) + &Self::whereabouts(word, measure, is_so_far)
             }
         }
     }
@@ -166,7 +166,7 @@ impl Words<'_> {
         let (kinetic, work) = (supply.kinetic, supply.work);
         // What rests on springs at the start may be given to the pad as well.
         let is_told = |part: f64| part <= 1.0 + LITTLE && part.abs() > ZERO;
-        let is_zero = self.zeros.has(taken_up.measure);
+        let is_zero = is_zero(taken_up.measure);
         let told = |part: f64| {
             if is_told(part) && !is_zero { format!(" ({})", share(part)) } else { String::new() }
         };
@@ -255,7 +255,7 @@ impl Words<'_> {
                     let solutions = run.solver.solves_for_error + 1;
                     format!(" (by {solutions} solutions of `{method}`{of})")
                 };
-                let but = self.exceptions(reached);
+                let but = Self::exceptions(reached);
                 let every = if but.is_empty() { "every figure" } else { "every other figure" };
                 match self.far_off(reached) {
                     Some((key, others)) => format!(
@@ -291,10 +291,10 @@ impl Words<'_> {
     }
 
     /// The figures that are not as good as the others.
-    fn exceptions(&self, reached: &Reached<'_>) -> String {
+    fn exceptions(reached: &Reached<'_>) -> String {
         let small = |measure_report: &MeasureReport| {
             let error = quantity(measure_report.error.unwrap_or(0.0), measure_report.unit, 2);
-            if self.zeros.has(measure_report) {
+            if is_zero(measure_report) {
                 format!("`{}` is zero within {error}", measure_report.key)
             } else {
                 format!("`{}` is known to ±{error} only", measure_report.key)
