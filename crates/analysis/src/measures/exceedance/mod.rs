@@ -81,7 +81,7 @@ impl Exceedance {
         let ends = self.pieces.iter().flat_map(|piece| piece.ends);
         let most = ends.map(f64::abs).fold(0.0, f64::max);
         // The time falls as the level rises.
-        let is_missed = |level: f64| longest(&self.stretches(level), counted) < duration;
+        let is_missed = |level: f64| self.longest(level, counted) < duration;
         let low =
             if is_missed(most) { bisect(0.0, most, TO_THE_LAST_BIT, is_missed).0 } else { most };
         let is_passed = |piece: &&Piece| {
@@ -102,9 +102,9 @@ impl Exceedance {
         }
     }
 
-    /// The stretches of time in which the magnitude is not below `level`.
-    fn stretches(&self, level: f64) -> Vec<(f64, f64)> {
-        let mut stretches: Vec<(f64, f64)> = Vec::new();
+    /// For how long the magnitude is not below `level`: all times, or those of the longest stretch.
+    fn longest(&self, level: f64, counted: Counted) -> f64 {
+        let (mut sum, mut most, mut stretch) = (0.0, 0.0_f64, [f64::NEG_INFINITY; 2]);
         for piece in &self.pieces {
             let [first, last] = piece.ends.map(|end| end.abs() >= level);
             let (start, end) = (piece.panel.start, piece.panel.end);
@@ -115,12 +115,14 @@ impl Exceedance {
                 (false, true) => (passage(), end),
                 (false, false) => continue,
             };
-            match stretches.last_mut() {
-                Some(before) if before.1 >= from => before.1 = to,
-                _ => stretches.push((from, to)),
-            }
+            stretch = if stretch[1] >= from { [stretch[0], to] } else { [from, to] };
+            sum += to - from;
+            most = most.max(stretch[1] - stretch[0]);
         }
-        stretches
+        match counted {
+            Counted::Together => sum,
+            Counted::AtOnce => most,
+        }
     }
 }
 
@@ -136,14 +138,6 @@ fn passage(piece: &Piece, level: f64) -> f64 {
     // The magnitude is monotone, so halving finds it to the last bit.
     let (from, to) = bisect(-1.0, 1.0, 53, |x| (value(x) >= 0.0) == rises);
     0.5 * (from + to)
-}
-
-fn longest(stretches: &[(f64, f64)], counted: Counted) -> f64 {
-    let lengths = stretches.iter().map(|stretch| stretch.1 - stretch.0);
-    match counted {
-        Counted::Together => lengths.sum(),
-        Counted::AtOnce => lengths.fold(0.0, f64::max),
-    }
 }
 
 #[cfg(test)]

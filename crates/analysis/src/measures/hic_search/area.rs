@@ -3,7 +3,7 @@
 use dashpot_dae::{Panel, Signal};
 use dashpot_numerics::chebyshev::{self, Coefficients};
 
-use super::{middle_of, search::Range};
+use super::{middle_of, rank, search::Range};
 
 /// Less area than this part of the other is none.
 const ROUNDING: f64 = 1e-12;
@@ -167,10 +167,14 @@ impl<'a> Area<'a> {
         self.borders.binary_search_by(|border| border.total_cmp(&t)).is_ok()
     }
 
+    /// The part in which a time is.
+    fn part(&self, t: f64) -> usize {
+        rank(&self.starts, t, |start| *start <= t).saturating_sub(1)
+    }
+
     /// The value at a time at which it does not jump.
     pub(super) fn height(&self, t: f64) -> f64 {
-        let at = self.starts.partition_point(|start| *start <= t).saturating_sub(1);
-        self.parts.get(at).map_or(0.0, |part| self.sense.of(part.panel.value(t)))
+        self.parts.get(self.part(t)).map_or(0.0, |part| self.sense.of(part.panel.value(t)))
     }
 
     /// Neighbours among both ends and the parts between them, between which it passes a level, each with its value:
@@ -209,10 +213,8 @@ impl<'a> Area<'a> {
 
     /// What counts as area between two times, and what counts against it.
     fn areas(&self, from: f64, to: f64) -> [f64; 2] {
-        let until = |t: f64| {
-            let at = self.starts.partition_point(|start| *start <= t).saturating_sub(1);
-            self.parts.get(at).map_or([0.0; 2], |part| part.areas_until(t))
-        };
+        let until =
+            |t: f64| self.parts.get(self.part(t)).map_or([0.0; 2], |part| part.areas_until(t));
         let (from, to) = (until(from), until(to));
         [0, 1].map(|at: usize| (to[at] - from[at]).max(0.0))
     }
@@ -220,12 +222,11 @@ impl<'a> Area<'a> {
     /// Bounds of the value between two times on one monotone piece; from the right at the first, from
     /// the left at the second.
     pub(super) fn range(&self, from: f64, to: f64) -> Range {
-        let panels = |t: f64| self.starts.partition_point(|start| *start <= t).saturating_sub(1);
         let value = |at: usize, t: f64| {
             self.parts.get(at).map_or(0.0, |own| self.sense.of(own.panel.value(t)))
         };
-        let first = value(panels(from), from);
-        let mut at = panels(to);
+        let first = value(self.part(from), from);
+        let mut at = self.part(to);
         if at > 0 && self.parts[at].start >= to {
             at -= 1;
         }

@@ -135,9 +135,31 @@ pub(crate) fn optimum_of_hump(signal: &Signal, window: (f64, f64), top: f64, cap
 
 /// The one in the middle of those of rising times that lie between two.
 fn middle_of(times: &[f64], from: f64, to: f64) -> Option<f64> {
-    let first = times.partition_point(|time| *time <= from);
-    let last = times.partition_point(|time| *time < to);
+    let first = rank(times, from, |time| *time <= from);
+    let last = rank(times, to, |time| *time < to);
     (first < last).then(|| times[first.midpoint(last)])
+}
+
+/// How many of rising times are before something near a time: looked for from where it is if they are even, as samples
+/// are, so that long records are not halved from end to end each time.
+fn rank(times: &[f64], near: f64, is_before: impl Fn(&f64) -> bool) -> usize {
+    let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0 };
+    let share = ((near - first) / (last - first)).clamp(0.0, 1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it is a share of the length; of NaN it is 0"
+    )]
+    let guess = (share * (times.len() - 1) as f64) as usize;
+    let (mut low, mut high) = (guess, guess);
+    let mut reach = 4;
+    while low > 0 && !is_before(&times[low - 1]) {
+        (low, reach) = (low.saturating_sub(reach), 2 * reach);
+    }
+    while high < times.len() && is_before(&times[high]) {
+        (high, reach) = ((high + reach).min(times.len()), 2 * reach);
+    }
+    low + times[low..high].partition_point(is_before)
 }
 
 /// `T (V/T)^2.5`; 0 for an interval without length.

@@ -8,7 +8,7 @@ use super::{Optimum, RESOLUTION, area::Area, criterion, middle_of};
 const MOST_BOXES: usize = 2_000_000;
 /// After so many boxes so much of a maximum may be missed, in parts of it, which then is stated: long records have
 /// thousands of pulses that are all as good as each other.
-const COARSER: [(usize, f64); 2] = [(100_000, 1e-9), (300_000, 1e-6)];
+const COARSER: [(usize, f64); 2] = [(50_000, 1e-9), (150_000, 1e-6)];
 /// Times between which intervals are tried before the search.
 const MOST_FIRST: usize = 64;
 /// A box that is as short as this, in parts of the interval, is not divided further: what it may hold beyond its
