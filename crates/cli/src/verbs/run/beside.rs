@@ -8,15 +8,12 @@ use dashpot_dae::Signal;
 use dashpot_network::{Assembly, parameters::Dimension};
 use dashpot_plot::{MeasuredSeries, Of};
 use dashpot_scene::Scene;
-use dashpot_signal::{Cfc, Channel, Padding, Recorder};
+use dashpot_signal::{Cfc, Channel, Padding, Recorder, iso_mme::ChannelCode};
 
-use super::{
-    columns::{Columns, OfTable, OfTest, column_of, only_one},
-    compared::Numbers,
-    recorded::Recorded,
-};
+use super::{columns::Columns, compared::Numbers, recorded::Recorded};
 use crate::{
     args, error::CliError, measured::MeasuredFile, numbers::constant, origin, output::list,
+    verbs::signal::mme,
 };
 
 /// Which measured curves stand beside the runs.
@@ -201,23 +198,27 @@ impl MeasuredCurve {
                 known: known.iter().map(Output::key).collect(),
             })
         });
-        let chosen = |all: &dyn Columns| match wanted {
-            Some(Ok(output)) => Ok((column_of(all, column, &output)?, output)),
+        let chosen = |all: &Columns<'_>| match wanted {
+            Some(Ok(output)) => Ok((all.measuring(column, &output)?, output)),
             Some(Err(fault)) => Err(fault),
-            None => only_one(all, assembly, &known),
+            None => all.only_one(assembly, &known),
         };
         let sha256 = origin::of_file(name).unwrap_or_default();
         let file = name.to_owned();
-        if let Some(test) = OfTest::read(flag, name)? {
-            let (at, output) = chosen(&test)?;
-            let mut rows = test.rows(at);
-            rows.iter_mut().for_each(|row| row.0 += shift);
-            let (column, cfc) = (test.title(at), test.cfc(at));
+        if mme::is_one(Path::new(name)) {
+            let channels = mme::read(Path::new(name))?;
+            let (at, output) = chosen(&Columns::of_test((flag, name), &channels))?;
+            let own = &channels[at];
+            let samples = own.channel.times().iter().zip(own.channel.values());
+            let rows = list(samples.map(|(time, value)| (time + shift, *value)));
+            let class = own.code.as_ref().and_then(ChannelCode::filter_class);
+            let cfc = class.and_then(|class| Cfc::new(class).ok());
+            let column = own.channel.name().to_owned();
             return Ok(Self { file, sha256, column, output, rows, shift, cfc, note: None });
         }
         let read = MeasuredFile::read(flag, name)?;
         let table = read.table()?;
-        let all = OfTable { file: &read, table: &table };
+        let all = Columns::of_table((flag, name), &table);
         let (at, output) = chosen(&all)?;
         let time = read.only(&table, Dimension::TIME)?.ok_or_else(|| {
             read.unclear(format!(
