@@ -45,6 +45,11 @@ fn measure(all: &Value, name: &str, word: &str) -> (f64, f64) {
     (number(&own["value"]), number(&own["error"]))
 }
 
+/// What is printed, in one line.
+fn printed(args: &[&str]) -> String {
+    out(&run(args)).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Limit, verdict and reason of each limit.
 fn verdicts(all: &Value) -> Vec<(String, String, String)> {
     let text = |own: &Value| own.as_str().unwrap_or_default().to_owned();
@@ -89,9 +94,6 @@ fn a_head_fails_that_each_of_its_axes_would_pass() {
     let (status, found) =
         judged(&["signal", &two, "--limit", "Head.peak<=270 g", "--guided", "xz"]);
     assert_eq!((status, &*found[0].1), (0, "pass"), "{found:?}");
-    let (status, found) =
-        judged(&["signal", &two, "--limit", "HeadZ.peak=en-1078", "--guided", "z"]);
-    assert_eq!((status, &*found[0].1), (0, "pass"), "{found:?}");
     let (_, found) = judged(&["signal", &two, "--limit", "HeadX.peak=en-1078", "--guided", "z"]);
     assert_eq!(found[0].2, "other-axes", "{found:?}");
     for wrong in ["y", "xyz", "zz", "w", ""] {
@@ -99,6 +101,134 @@ fn a_head_fails_that_each_of_its_axes_would_pass() {
         assert_eq!(code(&output), 2, "{wrong}");
         assert!(err(&output).contains("--guided"), "{wrong}: {}", err(&output));
     }
+}
+
+#[test]
+fn channels_of_unknown_relation_pass_no_limit_on_a_body_until_they_are_declared() {
+    let folder = TempDir::new().unwrap();
+    let heights = |_: f64| vec![100.0, 240.0];
+    for names in [["acc1", "acc2"], ["head 1", "head 2"], ["left", "right"], ["", ""]] {
+        let path = write(&folder, "two.csv", &axes(&names, 5.0, &heights));
+        let keys = if names[0].is_empty() { ["2", "3"] } else { names };
+        let limits = keys.map(|own| format!("{own}.peak=en-1078"));
+        let limits = ["--limit", &limits[0], "--limit", &limits[1]];
+        let (status, found) = judged(&[&["signal", &path][..], &limits].concat());
+        assert_eq!(status, 4, "{names:?} {found:?}");
+        assert!(found.iter().all(|own| own.1 == "undecided" && own.2 == "other-axes"), "{found:?}");
+        // The other one is in the file, whether it is read or not.
+        let alone = ["signal", &path, "--channel", keys[0], limits[0], limits[1]];
+        assert_eq!(judged(&alone).1[0].1, "undecided");
+        let text = printed(&[&["signal", &path][..], &limits].concat());
+        assert!(text.contains("--channel") && text.contains("Head X"), "{text}");
+        // Axes of one location form a resultant; bodies of their own are judged by themselves.
+        let declared = |of: [&str; 2]| {
+            let [one, other] = [0, 1].map(|at| format!("{}={}", keys[at], of[at]));
+            [path.clone(), "--channel".to_owned(), one, "--channel".to_owned(), other]
+        };
+        let judged = |of: [&str; 2], limits: &[&str]| {
+            let args = declared(of);
+            let args = args.iter().map(String::as_str);
+            let limits = limits.iter().flat_map(|own| ["--limit", own]);
+            judged(&["signal"].into_iter().chain(args).chain(limits).collect::<Vec<_>>())
+        };
+        let (status, found) = judged(["Head X", "Head Z"], &["Head.peak=en-1078"]);
+        assert_eq!((status, &*found[0].1), (4, "fail"), "{found:?}");
+        let (status, found) = judged(["A", "B"], &["A.peak=en-1078", "B.peak<=250 g"]);
+        assert_eq!(status, 0, "{found:?}");
+        let (_, found) = judged(["A", "B"], &["A.peak<=90 g", "B.peak<=230 g"]);
+        assert!(found.iter().all(|own| own.1 == "fail"), "{found:?}");
+    }
+    // What else is in the file is no axis of a body with three, nor is what is no acceleration.
+    let names = ["Head X", "Head Y", "Head Z", "plate"];
+    let path = write(&folder, "four.csv", &axes(&names, 5.0, &|_| vec![3.0, 4.0, 12.0, 9.0]));
+    let (status, found) = judged(&["signal", &path, "--limit", "plate.peak<=10 g"]);
+    assert_eq!(status, 0, "{found:?}");
+    let text = axes(&["acc", "F"], 5.0, &heights).replace("F [g]", "F [N]");
+    let path = write(&folder, "force.csv", &text);
+    let (status, found) = judged(&["signal", &path, "--limit", "acc.peak=en-1078"]);
+    assert_eq!(status, 0, "{found:?}");
+}
+
+#[test]
+fn anatomical_axes_form_a_resultant() {
+    let folder = TempDir::new().unwrap();
+    for names in [
+        ["Head A-P", "Head S-I"],
+        ["Head AP", "Head SI"],
+        ["Head L-R", "Head S/I"],
+        ["Head_lat", "Head_vert"],
+        ["Head fore-aft", "Head lateral"],
+    ] {
+        let path = write(&folder, "two.csv", &axes(&names, 5.0, &|_| vec![100.0, 240.0]));
+        let all = json(&["signal", &path, "--json"]);
+        let (peak, _) = measure(&all, "Head resultant", "peak");
+        assert!((peak / STANDARD_GRAVITY - 260.0).abs() < 1e-6, "{names:?}");
+        let limits = names.map(|own| format!("{own}.peak=en-1078"));
+        let (status, found) =
+            judged(&["signal", &path, "--limit", &limits[0], "--limit", &limits[1]]);
+        assert!(status == 4 && found.iter().all(|own| own.1 == "undecided"), "{found:?}");
+    }
+}
+
+#[test]
+fn a_guided_rig_is_believed_as_far_as_its_other_axes_do_not_contradict() {
+    let folder = TempDir::new().unwrap();
+    let limit = ["--limit", "HeadX.peak=en-1078", "--guided", "x"];
+    for (x, z, verdict) in
+        [(100.0, 240.0, "undecided"), (240.0, 30.0, "pass"), (240.0, 80.0, "undecided")]
+    {
+        let path = write(&folder, "two.csv", &axes(&["HeadX", "HeadZ"], 5.0, &|_| vec![x, z]));
+        let (status, found) = judged(&[&["signal", &path][..], &limit].concat());
+        assert_eq!((status == 0, &*found[0].1), (verdict == "pass", verdict), "{x} {z} {found:?}");
+        let text = printed(&[&["signal", &path][..], &limit].concat());
+        let size = format!("with z it is {:.1} g", f64::hypot(x, z));
+        assert!(verdict == "pass" || text.contains(&size), "{text}");
+        // An axis of the file that is not read may contradict as well.
+        let alone = [&["signal", &path, "--channel", "HeadX"][..], &limit].concat();
+        let (status, found) = judged(&alone);
+        assert_eq!((status, &*found[0].2), (4, "other-axes"), "{found:?}");
+        assert!(printed(&alone).contains("`HeadZ` of the file"), "{}", printed(&alone));
+    }
+    // Nor does one pass beside axes with which it forms no resultant.
+    let names = ["HeadX", "head x", "HeadZ"];
+    let path = write(&folder, "twice.csv", &axes(&names, 5.0, &|_| vec![100.0, 100.0, 240.0]));
+    let (status, found) = judged(&[&["signal", &path][..], &limit].concat());
+    assert_eq!((status, &*found[0].2), (4, "other-axes"), "{found:?}");
+    // The location stands for the only axis that is there, guided along it or not.
+    let path = write(&folder, "one.csv", &axes(&["HeadX"], 5.0, &|_| vec![240.0]));
+    let (status, found) =
+        judged(&["signal", &path, "--limit", "Head.peak=en-1078", "--guided", "x"]);
+    assert_eq!((status, &*found[0].1), (0, "pass"), "{found:?}");
+    let (status, found) = judged(&["signal", &path, "--limit", "Head.peak=en-1078"]);
+    assert_eq!((status, &*found[0].2), (4, "other-axes"), "{found:?}");
+    assert!(
+        printed(&["signal", &path, "--limit", "Head.peak<=250 g"]).contains("x alone is measured")
+    );
+}
+
+#[test]
+fn whatever_is_undecided_says_why() {
+    let folder = TempDir::new().unwrap();
+    let two = write(&folder, "two.csv", &axes(&["HeadX", "HeadZ"], 5.0, &|_| vec![100.0, 240.0]));
+    let three = ["Head X", "Head Y", "Head Z"];
+    let three = write(&folder, "three.csv", &axes(&three, 5.0, &|_| vec![3.0, 4.0, 12.0]));
+    let short = write(&folder, "short.csv", "t [ms],acc [g]\n0,0\n1,50\n2,0\n");
+    let cut = write(&folder, "cut.csv", "t [ms],acc [g]\n0,50\n1,60\n2,30\n3,20\n4,10\n");
+    for (path, limit, words) in [
+        (&two, "Head.peak<=270 g", "x and z alone are measured"),
+        (&two, "HeadX.peak<=270 g", "it is that of x alone, and the limit is one on the resultant"),
+        (&three, "Head.peak<=13 g", "the limit is within the error"),
+        (&short, "acc.clip-3ms<=50 g", "the record is too short"),
+        (&cut, "acc.peak<=100 g", "begins or ends within the pulse"),
+    ] {
+        let text = printed(&["signal", path, "--limit", limit]);
+        assert!(text.contains("UNDECIDED") && text.contains(words), "{limit}: {text}");
+    }
+    // A limit without a channel names what there is.
+    let output = run(&["signal", &two, "--limit", "peak<=200 g"]);
+    let told = err(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(code(&output), 2, "{told}");
+    assert!(told.contains("measure `peak`") && told.contains("`Head resultant.peak`"), "{told}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, fmt::Write as _};
 
 use dashpot::{
-    signal::{Analysis, Approach, Cfc, Channel, Measure, Removal, Settings},
+    signal::{Analysis, Approach, Cfc, Channel, Measure, Removal, Settings, Truth},
     units::{Dimension, STANDARD_GRAVITY},
 };
 use serde_json::Value;
@@ -161,6 +161,126 @@ fn a_contact_ends_before_its_swing_back() {
     }
 }
 
+/// What each measure of the drop is.
+fn closed_forms() -> [(Measure, f64); 14] {
+    let unit = 100.0_f64.powf(2.5) * DROP.length;
+    let half = |share: f64| DROP.height * (PI * (0.5 - 0.5 * share)).sin();
+    let of_energy = |speed: f64| 0.5 * 4.5 * speed * speed;
+    [
+        (Measure::Peak, DROP.height),
+        (Measure::ContactTime, DROP.length * (1.0 - 2.0 * 0.05_f64.asin() / PI)),
+        (Measure::VelocityChange, 2.0 * DROP.height / DROP.omega()),
+        (Measure::Hic15, 0.414_645_65 * unit),
+        (Measure::Hic36, 0.414_645_65 * unit),
+        (Measure::SeverityIndex, 0.457_655_86 * unit),
+        (Measure::Clip3ms, half(0.3)),
+        (Measure::Clip3msAtOnce, half(0.3)),
+        (Measure::Displacement, DROP.depth()),
+        (Measure::ReboundVelocity, DROP.rebound()),
+        (Measure::Restitution, DROP.rebound() / DROP.velocity),
+        (Measure::EnergyTaken, of_energy(DROP.velocity)),
+        (Measure::EnergyReturned, of_energy(DROP.rebound())),
+        (Measure::EnergyAbsorbed, of_energy(DROP.velocity) - of_energy(DROP.rebound())),
+    ]
+}
+
+#[test]
+fn a_clipped_record_bounds_what_depends_on_what_is_missing() {
+    for (sign, range) in [(1.0, 95.0), (1.0, 70.0), (-1.0, 70.0), (1.0, 40.0)] {
+        let level = range * STANDARD_GRAVITY;
+        let times: Vec<f64> = (0..=800).map(|at| 5e-5 * f64::from(at) - 0.01).collect();
+        let values = times.iter().map(|time| sign * DROP.value(*time).min(level)).collect();
+        let channel = Channel::new("a", Dimension::ACCELERATION, times, values).unwrap();
+        let approach =
+            Approach { velocity: DROP.velocity, mass: Some(4.5), gravity: 0.0, touch: None };
+        let settings = Settings { approach: Some(approach), ..Settings::default() };
+        let own = settings.analyse(channel).unwrap();
+        for (measure, truth) in closed_forms() {
+            let signed = if measure == Measure::VelocityChange { sign } else { 1.0 };
+            let truth = signed * truth;
+            let reading = own.reading(measure).unwrap();
+            let word = measure.word();
+            let rounding = 1e-9 * truth.abs();
+            // What a clip at 3 ms exceeds is below the range, or is not; all energy is taken where the body turns.
+            let depends = match measure {
+                Measure::Clip3ms | Measure::Clip3msAtOnce => range < 89.0,
+                Measure::EnergyTaken => false,
+                _ => true,
+            };
+            assert_eq!(reading.truth != Truth::Within, depends, "{word} {range}");
+            let Ok(value) = reading.value else { panic!("{word} {range}: {reading:?}") };
+            let holds = match reading.truth {
+                Truth::Within => (value - truth).abs() <= reading.error + rounding,
+                Truth::AtLeast => value <= truth + rounding,
+                Truth::AtMost => value >= truth - rounding,
+            };
+            assert!(holds, "{word} {range}: {reading:?}, not {truth}");
+        }
+        // The peak is what the sensor showed at least, and no more is known.
+        let peak = own.reading(Measure::Peak).unwrap();
+        assert!((peak.value.unwrap() / level - 1.0).abs() < 1e-9, "{peak:?}");
+    }
+}
+
+#[test]
+fn bounds_are_told_wherever_a_number_is() {
+    let folder = TempDir::new().unwrap();
+    // Axis z ends at 120.2 g; a resultant of what is left of it is no more than a bound either.
+    let mut text = "t [ms],Head X [g],Head Y [g],Head Z [g]\n".to_owned();
+    for at in 0..800 {
+        let time = f64::from(at) * 0.05 - 10.0;
+        let own = DROP.value(1e-3 * time) / DROP.height;
+        let (x, y, z) = (40.0 * own, 30.0 * own, (200.0 * own).min(120.2));
+        writeln!(text, "{time:.2},{x},{y},{z}").unwrap();
+    }
+    let path = write(&folder, &text);
+    let results = folder.path().join("out");
+    let results = results.to_str().unwrap();
+    let args = ["signal", &path, "--out", results, "--limit", "Head.peak<=250 g"];
+    let output = run(&args);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = words(&text);
+    assert!(said.contains("Head resultant: its axis z is clipped at 120 g"), "{said}");
+    assert!(
+        said.contains("peak 120.2 at least g") || said.contains("peak 120.1 at least g"),
+        "{said}"
+    );
+    let all = json(&["signal", &path, "--json", "--limit", "Head.peak<=250 g"]);
+    let of = |name: &str, word: &str| {
+        let all = all["channels"].as_array().unwrap().iter().find(|own| own["name"] == name);
+        all.unwrap()["measures"][format!("{name}.{word}")].clone()
+    };
+    for (name, word, bound) in [
+        ("Head X", "peak", None),
+        ("Head Z", "peak", Some("at-least")),
+        ("Head Z", "hic15", Some("at-least")),
+        ("Head Z", "contact-time", Some("at-most")),
+        ("Head resultant", "peak", Some("at-least")),
+        ("Head resultant", "hic15", Some("at-least")),
+        ("Head resultant", "severity-index", Some("at-least")),
+    ] {
+        let own = of(name, word);
+        assert_eq!(own["bound"].as_str(), bound, "{name} {word}: {own}");
+        assert_eq!(own["error"].is_null(), bound.is_some(), "{name} {word}: {own}");
+    }
+    let peak = number(&of("Head resultant", "peak")["value"]) / STANDARD_GRAVITY;
+    // 40 and 30 g beside 120.2 g where z leaves its range: the largest of what is left.
+    assert!(peak <= (50.0_f64.powi(2) + 120.2_f64.powi(2)).sqrt() + 1e-6 && peak > 120.2, "{peak}");
+    let verdict = &all["limits"][0];
+    assert_eq!(
+        (verdict["verdict"].as_str(), verdict["reason"].as_str()),
+        (Some("undecided"), Some("clipped"))
+    );
+    assert!(verdict["error"].is_null() && verdict["margin"].is_null(), "{verdict}");
+    let table = std::fs::read_to_string(format!("{results}/measures.csv")).unwrap();
+    let row = table.lines().find(|own| own.contains("Head Z.peak")).unwrap();
+    assert!(row.ends_with("at-least") && row.contains(",,"), "{row}");
+    let page = std::fs::read_to_string(format!("{results}/report.html")).unwrap();
+    assert!(page.contains("at least") && page.contains("its axis z is clipped"));
+}
+
 /// Numbers that scatter as a normal one does: sums of twelve evenly distributed ones.
 struct Random(u64);
 
@@ -223,24 +343,12 @@ impl Record {
 
 /// What a measure is in truth: of a filtered record what its filter makes of the pulse alone, at ten times the rate.
 fn truths(record: &Record) -> Vec<(Measure, f64)> {
-    let unit = 100.0_f64.powf(2.5) * DROP.length;
-    let half = |share: f64| DROP.height * (PI * (0.5 - 0.5 * share)).sin();
-    let closed = [
-        (Measure::Peak, DROP.height),
-        (Measure::ContactTime, DROP.length * (1.0 - 2.0 * 0.05_f64.asin() / PI)),
-        (Measure::VelocityChange, 2.0 * DROP.height / DROP.omega()),
-        (Measure::Hic15, 0.414_645_65 * unit),
-        (Measure::Hic36, 0.414_645_65 * unit),
-        (Measure::SeverityIndex, 0.457_655_86 * unit),
-        (Measure::Clip3ms, half(0.3)),
-        (Measure::Clip3msAtOnce, half(0.3)),
-        (Measure::Displacement, DROP.depth()),
-        (Measure::ReboundVelocity, DROP.rebound()),
-        (Measure::EnergyTaken, 0.5 * 4.5 * DROP.velocity.powi(2)),
-        (Measure::EnergyReturned, 0.5 * 4.5 * DROP.rebound().powi(2)),
-    ];
+    // Those of differences are bounded by those of what they are made of.
+    let is_plain =
+        |own: &(Measure, f64)| !matches!(own.0, Measure::Restitution | Measure::EnergyAbsorbed);
+    let closed: Vec<(Measure, f64)> = closed_forms().into_iter().filter(is_plain).collect();
     if record.cfc.is_none() {
-        return closed.to_vec();
+        return closed;
     }
     let fine = Record { rate: 10.0 * record.rate, offset: 0.0, ..*record }.analysis(None);
     // What becomes of the motion is told by where the contact begins, which a filter blurs.

@@ -4,8 +4,11 @@ use dashpot_units::Dimension;
 use thiserror::Error;
 
 use crate::{
-    Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Doubt, Measure, Motion, Noise,
-    Offset, Padding, Part, Polarity, Reading, Steps, Work, defects::defects, measures::Reader,
+    Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Measure, Motion, Noise,
+    Offset, Padding, Part, Reading, Steps, Uncertainty, Work,
+    clipping::{self, Clipping},
+    defects::defects,
+    measures::Reader,
 };
 
 /// What is taken off a channel before anything else.
@@ -77,8 +80,12 @@ pub struct Analysis {
     pub raw: Channel,
     /// The same as it was read: without offset, filtered, cut.
     pub channel: Channel,
+    /// The stretches \[s\] in which the record is at the end of a range; of a resultant those of its axes.
+    pub clipped: Vec<(f64, f64)>,
     /// What it holds of what happens at its place.
     pub part: Part,
+    /// Names of channels of its file that may hold more of it, and are no part of this or of a resultant.
+    pub beside: Vec<String>,
     /// Steps of the record.
     pub steps: Steps,
     /// The reading at rest, where the record tells it.
@@ -87,8 +94,6 @@ pub struct Analysis {
     pub removed: Option<f64>,
     /// What was done with it.
     pub settings: Settings,
-    /// Which way its peak points.
-    pub polarity: Polarity,
     /// The stretch about the peak.
     pub contact: Contact,
     /// Its numbers.
@@ -99,7 +104,7 @@ pub struct Analysis {
     /// The work of a force, where there is a displacement.
     pub work: Option<Work>,
     /// How far its samples may be off.
-    pub doubt: Doubt,
+    pub uncertainty: Uncertainty,
     /// What is wrong with it.
     pub defects: Vec<Defect>,
 }
@@ -138,7 +143,7 @@ impl Settings {
             (Removal::Found, None) => return Err(SettingsFault::NoRest),
         };
         let rest = offset.map_or(0.0, |own| own.value - removed.unwrap_or(0.0));
-        // A velocity or displacement may stand anywhere before a blow.
+        // A velocity or displacement may stand anywhere before an impact.
         let has_zero = matches!(raw.dimension(), Dimension::ACCELERATION | Dimension::FORCE);
         let error = offset.filter(|_| has_zero || self.offset == Removal::Found);
         let error = error.map_or(0.0, |own| rest.abs() + own.error);
@@ -177,7 +182,8 @@ impl Settings {
             return Err(SettingsFault::NoTouch { touch, span });
         }
         let noise = Noise::of(&raw, treated.offset.as_ref(), self.cfc);
-        let mut own = self.read(raw, treated, noise, Part::Whole);
+        let clipped = clipping::stretches(&raw);
+        let mut own = self.read(raw, treated, noise, (Part::Whole, clipped));
         own.defects = defects(&own);
         Ok(own)
     }
@@ -188,11 +194,12 @@ impl Settings {
         raw: Channel,
         treated: Treated,
         noise: Noise,
-        part: Part,
+        (part, clipped): (Part, Vec<(f64, f64)>),
     ) -> Analysis {
         let Treated { channel, offset, removed, floor, rest } = treated;
-        let doubt = Doubt { floor, rest, noise };
-        let reader = Reader::new(&channel, doubt);
+        let uncertainty = Uncertainty { floor, rest, noise };
+        let clipping = Clipping::of(&channel, &clipped, self.cfc.is_some());
+        let reader = Reader::new(&channel, uncertainty, clipping);
         let is_read =
             |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
         let measures = Measure::of(channel.dimension()).filter(is_read);
@@ -203,24 +210,28 @@ impl Settings {
         });
         let motion = approach.map(|own| reader.motion(own));
         for (motion, approach) in motion.iter().zip(approach) {
-            readings.extend(motion.readings(&channel, approach));
+            let all = motion.readings(&channel, approach).into_iter();
+            let motion = (motion, approach.gravity);
+            let left = |own| clipping.map_or(own, |clipping| clipping.left(own, Some(motion)));
+            readings.extend(all.map(left));
         }
-        let (polarity, contact) = (channel.polarity(), reader.contact());
+        let contact = reader.contact();
         drop(reader);
         Analysis {
             steps: raw.steps(),
             raw,
             channel,
+            clipped,
             part,
+            beside: Vec::new(),
             offset,
             removed,
             settings: *self,
-            polarity,
             contact,
             readings,
             motion,
             work: None,
-            doubt,
+            uncertainty,
             defects: Vec::new(),
         }
     }

@@ -46,39 +46,107 @@ pub struct Place {
 }
 
 /// Words for a direction that stand alone in a name.
-const WORDS: [(&str, Axis); 6] = [
+const WORDS: [(&str, Axis); 7] = [
     ("longitudinal", Axis::X),
     ("lateral", Axis::Y),
     ("vertical", Axis::Z),
+    ("foreaft", Axis::X),
     ("längs", Axis::X),
     ("quer", Axis::Y),
     ("hoch", Axis::Z),
+];
+/// Short ones, which tell a direction where something else is named as well: `Head A-P`, `Head lat`.
+const SHORT: [(&str, Axis); 9] = [
+    ("ap", Axis::X),
+    ("pa", Axis::X),
+    ("lr", Axis::Y),
+    ("rl", Axis::Y),
+    ("si", Axis::Z),
+    ("is", Axis::Z),
+    ("long", Axis::X),
+    ("lat", Axis::Y),
+    ("vert", Axis::Z),
 ];
 /// Symbols that a letter of an axis is written behind: `ax`, `accX`, `Fz`.
 const SYMBOLS: [&str; 9] = ["a", "acc", "accel", "g", "f", "v", "d", "s", "u"];
 /// Words that say no place.
 const FILLERS: [&str; 8] =
     ["axis", "achse", "dir", "direction", "value", "wert", "channel", "kanal"];
+/// Words of what is a resultant by itself.
+const RESULTANTS: [&str; 5] = ["resultant", "resultante", "resultierende", "res", "magnitude"];
 
-impl Place {
-    /// The places of the channels of one file that measure the same quantity, by their codes, or else their names. What
-    /// may be an axis, as `X` alone or the end of `HEADX`, is one where another name differs by its axis alone.
-    pub fn of_channels(all: &[(&str, Option<&ChannelCode>)]) -> Vec<Option<Self>> {
-        let names: Vec<&str> = all.iter().map(|own| own.0).collect();
-        let of_code = |own: &ChannelCode| own.direction().and(Some(Self::of_code(own)));
-        let codes = all.iter().map(|own| own.1.and_then(of_code));
-        codes.zip(Self::of_names(&names)).map(|(code, name)| code.unwrap_or(name)).collect()
+/// What tells where a channel is.
+#[derive(Debug, Clone, Copy)]
+pub struct Label<'n> {
+    /// Its name.
+    pub name: &'n str,
+    /// Its code of ISO-MME.
+    pub code: Option<&'n ChannelCode>,
+    /// Whether it was given that name to say where it is: then it is no axis of anything else.
+    pub is_declared: bool,
+}
+
+impl Label<'_> {
+    /// Whether it says all that there is to know of its place.
+    fn is_sure(&self) -> bool {
+        let is_code = self.code.is_some_and(|own| own.location().is_some()) || is_code(self.name);
+        let is_resultant = |own: &&str| RESULTANTS.contains(&&*own.to_lowercase());
+        self.is_declared || is_code || tokens(self.name).iter().any(is_resultant)
     }
+}
 
-    fn of_names(names: &[&str]) -> Vec<Option<Self>> {
-        let found: Vec<Option<(Self, bool)>> = names.iter().map(|own| Self::of_name(own)).collect();
-        let is_beside = |own: &Self| {
+/// Where the channels of one file are that measure the same quantity.
+#[derive(Debug, Clone)]
+pub struct Places {
+    all: Vec<Option<Place>>,
+    /// Those of which nothing tells whether they are axes of what others measure.
+    are_unknown: Vec<bool>,
+}
+
+impl Places {
+    /// Those that codes, or else names tell. What may be an axis, as `X` alone or the end of `HEADX`, is one where another
+    /// name differs by its axis alone.
+    pub fn of(labels: &[Label<'_>]) -> Self {
+        let of_one = |own: &Label<'_>| match own.code.filter(|code| code.direction().is_some()) {
+            Some(code) => Some((Place::of_code(code)?, true)),
+            None => Place::of_name(own.name),
+        };
+        let found: Vec<Option<(Place, bool)>> = labels.iter().map(of_one).collect();
+        let is_beside = |own: &Place| {
             found.iter().flatten().any(|other| own.is_beside(&other.0) && own.axis != other.0.axis)
         };
-        let is_one = |own: &&(Self, bool)| own.1 || is_beside(&own.0);
-        found.iter().map(|own| own.as_ref().filter(is_one).map(|own| own.0.clone())).collect()
+        let is_one = |own: &&(Place, bool)| own.1 || is_beside(&own.0);
+        let all: Vec<Option<Place>> =
+            found.iter().map(|own| own.as_ref().filter(is_one).map(|own| own.0.clone())).collect();
+        let unknown = labels.iter().zip(&all).map(|(own, place)| place.is_none() && !own.is_sure());
+        Self { are_unknown: unknown.collect(), all }
     }
 
+    /// The place of a channel that is one axis.
+    pub fn get(&self, at: usize) -> Option<&Place> {
+        self.all.get(at)?.as_ref()
+    }
+
+    /// Channels that may be further axes of the body that one is on: the other axes of its location, and where not all
+    /// three are there, or of what is no known axis itself, those of which nothing is known.
+    pub fn beside(&self, at: usize) -> Vec<usize> {
+        let is_whole = |place: &Place| {
+            let is_there = |axis| {
+                self.all.iter().flatten().any(|own| own.is_beside(place) && own.axis == axis)
+            };
+            Axis::ALL.into_iter().all(is_there)
+        };
+        let is_further = |other: &usize| match (self.get(at), self.get(*other)) {
+            (Some(own), Some(other)) => own.is_beside(other) && own.axis != other.axis,
+            (Some(own), None) => self.are_unknown[*other] && !is_whole(own),
+            (None, Some(other)) => self.are_unknown[at] && !is_whole(other),
+            (None, None) => self.are_unknown[at] && self.are_unknown[*other] && at != *other,
+        };
+        (0..self.all.len()).filter(is_further).collect()
+    }
+}
+
+impl Place {
     /// Whether both are at the same location and measure the same, each along its axis.
     pub fn is_beside(&self, other: &Self) -> bool {
         self.key == other.key
@@ -104,25 +172,30 @@ impl Place {
             return Some((own, true));
         }
         let tokens = tokens(name);
-        let (at, (axis, symbol)) = tokens
-            .iter()
-            .enumerate()
-            .rev()
-            .find_map(|(at, own)| Some((at, axis_of(own, at + 1 == tokens.len())?)))?;
-        let is_named = tokens
-            .iter()
-            .enumerate()
-            .any(|(other, own)| other != at && !FILLERS.contains(&&*own.to_lowercase()));
+        let last = tokens.len().checked_sub(1)?;
+        let start = |at: usize| tokens[at].as_ptr() as usize - name.as_ptr() as usize;
+        let end = |at: usize| start(at) + tokens[at].len();
+        // A direction is one part, or two as `A-P`.
+        let (first, until, axis, symbol) = (0..=last).rev().find_map(|at| {
+            let pair =
+                (at < last).then(|| Some((at, at + 1, pair_axis(tokens[at], tokens[at + 1])?, "")));
+            let one = || axis_of(tokens[at], at == last).map(|own| (at, at, own.0, own.1));
+            pair.flatten().or_else(one)
+        })?;
+        let is_named = tokens.iter().enumerate().any(|(other, own)| {
+            !(first..=until).contains(&other) && !FILLERS.contains(&&*own.to_lowercase())
+        });
         let is_symbol = SYMBOLS.contains(&&*symbol.to_lowercase());
         // A symbol that is not known is the name of the place: `HEAD` of `HEADX`.
         let kept = if is_symbol && is_named { 0 } else { symbol.len() };
-        let start = tokens[at].as_ptr() as usize - name.as_ptr() as usize;
         let is_apart = |own: char| !own.is_alphanumeric();
-        let before = name[..start + kept].trim_end_matches(is_apart);
-        let behind = name[start + tokens[at].len()..].trim_matches(is_apart);
+        let before = name[..start(first) + kept].trim_end_matches(is_apart);
+        let behind = name[end(until)..].trim_matches(is_apart);
         let rest = [before, behind].into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>();
         let rest = rest.join(" ");
-        let is_sure = is_symbol || symbol.is_empty() && is_named && tokens[at].len() == 1;
+        let is_short = tokens[first].len() == 1
+            || SHORT.iter().any(|own| own.0 == tokens[first].to_lowercase());
+        let is_sure = is_symbol || symbol.is_empty() && is_named && is_short;
         let location = if is_named || kept > 0 { rest.clone() } else { String::new() };
         let resultant = [&*location, "resultant"].join(" ").trim_start_matches(is_apart).to_owned();
         let key = format!("{rest}\n{symbol}").to_lowercase();
@@ -136,12 +209,17 @@ fn is_code(name: &str) -> bool {
     name.len() == 16 && name.chars().all(is_part)
 }
 
+/// The axis that two parts of a name tell together: `A-P`, `fore-aft`.
+fn pair_axis(one: &str, other: &str) -> Option<Axis> {
+    let both = [one, other].concat().to_lowercase();
+    WORDS.iter().chain(&SHORT).find(|own| own.0 == both).map(|own| own.1)
+}
+
 /// The axis that a part of a name tells, and the symbol before its letter. The last part may end in a letter of an axis
 /// whatever stands before it.
 fn axis_of(token: &str, is_last: bool) -> Option<(Axis, &str)> {
-    let lower = token.to_lowercase();
-    if let Some(word) = WORDS.iter().find(|own| own.0 == lower) {
-        return Some((word.1, ""));
+    if let Some(axis) = pair_axis(token, "") {
+        return Some((axis, ""));
     }
     let (at, letter) = token.char_indices().next_back()?;
     let symbol = &token[..at];
@@ -171,8 +249,13 @@ mod tests {
     use super::*;
 
     fn told(names: &[&str]) -> Vec<Option<(String, Axis)>> {
-        let all = Place::of_names(names).into_iter();
+        let all = places(names).all.into_iter();
         all.map(|own| own.map(|own| (own.location, own.axis))).collect()
+    }
+
+    fn places(names: &[&str]) -> Places {
+        let label = |name| Label { name, code: None, is_declared: false };
+        Places::of(&names.iter().copied().map(label).collect::<Vec<_>>())
     }
 
     #[test]
@@ -192,6 +275,10 @@ mod tests {
                 "Head_Acc filtered",
             ),
             (["Head longitudinal", "Head lateral", "Head vertical"], "Head"),
+            (["Head A-P", "Head L-R", "Head S-I"], "Head"),
+            (["AP [raw]", "LR [raw]", "SI [raw]"], "raw"),
+            (["HeadLong", "HeadLat", "HeadVert"], "Head"),
+            (["fore-aft", "lat", "vert"], ""),
             (["head1x", "head1y", "head1z"], "head1"),
             (["A17.x", "A17.y", "A17.z"], "A17"),
             (["11HEAD0000H3ACXA", "11HEAD0000H3ACYA", "11HEAD0000H3ACZA"], "HEAD"),
@@ -202,12 +289,36 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_told_apart_may_be_axes_of_one_body() {
+        for (names, beside) in [
+            (&["acc1", "acc2"][..], &[&[1][..], &[0]][..]),
+            (&["Head", "Chest", "F"], &[&[1, 2], &[0, 2], &[0, 1]]),
+            (&["Kopf"], &[&[]]),
+            // A resultant that was recorded is no axis, and nothing is one beside three.
+            (&["Head X", "Head Y", "Head Z", "Head res"], &[&[1, 2], &[0, 2], &[0, 1], &[]]),
+            (&["Head X", "Head Y", "Head Z", "acc"], &[&[1, 2], &[0, 2], &[0, 1], &[]]),
+            (&["Head X", "acc"], &[&[1], &[0]]),
+            (&["Head X", "Chest X"], &[&[], &[]]),
+            (&["11HEAD0000H3ACRA", "11CHST0000H3AC0A"], &[&[], &[]]),
+        ] {
+            let all = places(names);
+            let found: Vec<_> = (0..names.len()).map(|at| all.beside(at)).collect();
+            assert_eq!(found, beside, "{names:?}");
+        }
+        let label = |name, is_declared| Label { name, code: None, is_declared };
+        assert!(Places::of(&[label("a1", true), label("a2", false)]).beside(0).is_empty());
+    }
+
+    #[test]
     fn a_name_alone_is_an_axis_only_where_it_says_so() {
         for (name, is_one) in [
             ("Head X", true),
             ("HeadZ", true),
             ("az", true),
             ("acc z", true),
+            ("Head A-P", true),
+            ("Head lat", true),
+            ("AP", false),
             ("11HEAD0000H3ACXA", true),
             ("11HEAD0000H3ACRA", false),
             ("x", false),

@@ -74,33 +74,6 @@ pub struct Steps {
     pub gaps: usize,
 }
 
-/// Which way the largest value points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Polarity {
-    /// Above zero.
-    Positive,
-    /// Below zero.
-    Negative,
-}
-
-impl Polarity {
-    /// Its word: `positive` or `negative`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Positive => "positive",
-            Self::Negative => "negative",
-        }
-    }
-
-    /// 1 or −1.
-    pub(crate) fn sign(self) -> f64 {
-        match self {
-            Self::Positive => 1.0,
-            Self::Negative => -1.0,
-        }
-    }
-}
-
 impl Channel {
     /// The channel of these samples.
     ///
@@ -128,6 +101,12 @@ impl Channel {
             return Err(ChannelFault::TimeBack { at: at + 1, time, before });
         }
         Ok(Self { name: name.into(), dimension, times, values })
+    }
+
+    /// The same under another name.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
     }
 
     /// Its name.
@@ -161,12 +140,9 @@ impl Channel {
         all.fold((0, 0.0), |best, own| if own.1 > best.1 { own } else { best })
     }
 
-    /// Which way the largest value points.
-    pub fn polarity(&self) -> Polarity {
-        match self.values.get(self.largest().0) {
-            Some(value) if *value < 0.0 => Polarity::Negative,
-            _ => Polarity::Positive,
-        }
+    /// The sign of its largest value, 1 or −1: which way its peak points.
+    pub fn sign(&self) -> f64 {
+        if self.values[self.largest().0] < 0.0 { -1.0 } else { 1.0 }
     }
 
     /// The steps between its samples.

@@ -1,6 +1,6 @@
 //! When the pulse is.
 
-use crate::{Channel, Doubt, sampling::Sampling};
+use crate::{Channel, Uncertainty, sampling::Sampling};
 
 /// The part of the peak above which a pulse counts as contact.
 pub const CONTACT_LEVEL: f64 = 0.05;
@@ -20,10 +20,14 @@ pub struct Contact {
 impl Contact {
     /// That of a channel whose values may be off. What its passages may be is told by those of the levels above and below
     /// that differ by as much.
-    pub(crate) fn of(channel: &Channel, sampling: &Sampling<'_>, doubt: &Doubt) -> Self {
+    pub(crate) fn of(
+        channel: &Channel,
+        sampling: &Sampling<'_>,
+        uncertainty: &Uncertainty,
+    ) -> Self {
         let (top, peak) = channel.largest();
         let level = CONTACT_LEVEL * peak;
-        let beyond = doubt.of_passages();
+        let beyond = uncertainty.of_passages();
         let [before, behind] = [false, true].map(|is_behind| {
             let at = |level: f64| passage(channel, (top, level), is_behind);
             let end = if is_behind { channel.span().1 } else { channel.span().0 };
@@ -34,10 +38,12 @@ impl Contact {
             (time.unwrap_or(end), error, time.is_none())
         });
         let window = (before.0, behind.0);
-        let sign = channel.polarity().sign();
+        let sign = channel.sign();
         Self {
             window,
-            error: sampling.passages(level, window, |own| sign * own) + before.1 + behind.1,
+            error: sampling.passages(level, window, |own| sign * own).sum::<f64>()
+                + before.1
+                + behind.1,
             is_cut: before.2 || behind.2,
         }
     }
@@ -51,7 +57,7 @@ impl Contact {
 /// When the values pass a level first on one side of the largest.
 fn passage(channel: &Channel, (top, level): (usize, f64), is_behind: bool) -> Option<f64> {
     let (times, values) = (channel.times(), channel.values());
-    let sign = channel.polarity().sign();
+    let sign = channel.sign();
     let is_below = |at: &usize| sign * values[*at] < level;
     let (low, high) = if is_behind {
         let low = (top + 1..values.len()).find(is_below)?;

@@ -1,16 +1,14 @@
 //! What is wrong with a record, and what a reader of its numbers must know.
 
-use std::fmt;
-
 use dashpot_analysis::measures::STANDARD_GRAVITY;
-use dashpot_units::{Dimension, quantity, si_unit};
+use dashpot_units::{Dimension, percent, quantity, si_unit};
+use thiserror::Error;
 
-use crate::{Analysis, Channel, Removal};
+use crate::{
+    Analysis, Axis, Channel, Part, Removal,
+    clipping::{EQUAL, runs},
+};
 
-/// So many equal samples in a row are no chance.
-const EQUAL: usize = 3;
-/// What stands out of equal samples by so many steps of resolution is no slope of a coarse curve.
-const COARSE_STEPS: f64 = 4.0;
 /// Shares of the peak: an offset, a rest behind the pulse, a resolution, a sample out of line.
 const OFFSET_SHARE: f64 = 0.001;
 const REST_SHARE: f64 = 0.02;
@@ -25,45 +23,93 @@ const LENGTHS: (f64, f64) = (2e-5, 2.0);
 const DIGITS: usize = 3;
 
 /// What is wrong with a channel, or with how it is read. Values are in SI units, times in s.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum Defect {
     /// Every sample is the same.
+    #[error("every sample is {}: nothing was measured", shown(*.value, *.unit))]
     Flat { value: f64, unit: Dimension },
     /// A reading at rest that is not taken off.
+    #[error(
+        "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
+        shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
+    )]
     Offset { value: f64, error: f64, share: f64, unit: Dimension },
     /// A reading at rest that changes, before the pulse or from before it to behind it.
+    #[error(
+        "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
+        shown(*.change, *.unit), percent(*.share, 2)
+    )]
     Drift { change: f64, share: f64, unit: Dimension },
-    /// The end of the range of a sensor or amplifier.
-    Clipped { level: f64, samples: usize, time: f64, unit: Dimension },
+    /// The end of the range of a sensor or amplifier; of a resultant that of one of its axes.
+    #[error(
+        "{}is clipped at {}: {samples} equal samples at its largest value, from {} on; what depends on them is a bound",
+        .axis.map_or(String::new(), |axis| format!("its axis {} ", axis.letter())),
+        shown(*.level, *.unit), seconds(*.time)
+    )]
+    Clipped { axis: Option<Axis>, level: f64, samples: usize, time: f64, unit: Dimension },
     /// The same value again and again within the pulse.
+    #[error(
+        "holds one value for {samples} samples within the pulse, from {} on: samples were dropped", seconds(*.time)
+    )]
     Held { samples: usize, time: f64 },
     /// Steps in which samples are missing.
+    #[error(
+        "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
+        if *.gaps == 1 { "place" } else { "places" }, seconds(*.time), seconds(*.longest), seconds(*.usual)
+    )]
     Dropped { gaps: usize, time: f64, longest: f64, usual: f64 },
     /// Single samples out of line.
+    #[error(
+        "{count} {} out of line with both neighbours, the first one at {}",
+        if *.count == 1 { "sample is" } else { "samples are" }, seconds(*.time)
+    )]
     Spikes { count: usize, time: f64 },
     /// Steps that differ.
+    #[error(
+        "its steps are uneven, from {} to {}; a line between samples takes them as they are",
+        seconds(.range.0), seconds(.range.1)
+    )]
     UnevenSteps { range: (f64, f64) },
     /// A resolution that is coarse beside the peak.
+    #[error("its values come in steps of {}, {} of the peak", shown(*.step, *.unit), percent(*.share, 2))]
     Coarse { step: f64, share: f64, unit: Dimension },
     /// A pulse of few samples.
+    #[error("its pulse has {samples} samples: the sampling rate is too low")]
     FewSamples { samples: usize },
     /// A record that begins or ends within the pulse.
+    #[error("the record begins or ends within the pulse: its numbers are those of a part")]
     Cut,
     /// A sampling rate below ten times the class of the filter.
+    #[error(
+        "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
+        quantity(*.rate, "Hz", DIGITS), quantity(*.least, "Hz", DIGITS)
+    )]
     SlowForClass { rate: f64, class: f64, least: f64 },
     /// A class that the standards do not name.
+    #[error("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")]
     OddClass { class: f64 },
     /// A peak that no impact test has: the unit may be another.
+    #[error("a peak of {} is none of an impact: is the unit right?", shown(*.peak, Dimension::ACCELERATION))]
     OddPeak { peak: f64 },
     /// A length of a pulse that no impact test has: the unit of time may be another.
+    #[error("a pulse of {} is none of an impact: is the unit of time right?", seconds(*.length))]
     OddLength { length: f64 },
     /// An axis beside others that went through another filter class, so that they have no resultant.
+    #[error(
+        "went through another filter class than other axes of its location, and is no part of their resultant"
+    )]
     OtherFilter,
     /// An axis of which there are two channels, so that it is not clear which one is part of the resultant.
+    #[error(
+        "is one of two channels of the same axis: no resultant is formed; `--channel` names one of each axis"
+    )]
     AxisTwice,
     /// An axis whose times, or whose peak, are not within those of the others.
+    #[error(
+        "was not recorded at the times at which the other axes of its location were: no resultant is formed"
+    )]
     AxesApart,
 }
 
@@ -93,96 +139,8 @@ impl Defect {
     }
 }
 
-impl fmt::Display for Defect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.of_values().or_else(|| self.of_times()).unwrap_or_default())
-    }
-}
-
-impl Defect {
-    /// What is wrong with values.
-    fn of_values(&self) -> Option<String> {
-        let percent = |share: f64| dashpot_units::percent(share, 2);
-        Some(match *self {
-            Self::Flat { value, unit } => {
-                format!("every sample is {}: nothing was measured", shown(value, unit))
-            }
-            Self::Offset { value, error, share, unit } => format!(
-                "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
-                shown(value, unit),
-                shown(error, unit),
-                percent(share)
-            ),
-            Self::Drift { change, share, unit } => format!(
-                "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
-                shown(change, unit),
-                percent(share)
-            ),
-            Self::Clipped { level, samples, time, unit } => format!(
-                "is clipped at {}: {samples} equal samples at its largest value, from {} on; the peak was higher",
-                shown(level, unit),
-                quantity(time, "s", DIGITS)
-            ),
-            Self::Coarse { step, share, unit } => format!(
-                "its values come in steps of {}, {} of the peak",
-                shown(step, unit),
-                percent(share)
-            ),
-            Self::OddPeak { peak } => format!(
-                "a peak of {} is none of an impact: is the unit right?",
-                shown(peak, Dimension::ACCELERATION)
-            ),
-            _ => return None,
-        })
-    }
-
-    /// What is wrong with times and their samples.
-    fn of_times(&self) -> Option<String> {
-        let ms = |time: f64| quantity(time, "s", DIGITS);
-        Some(match *self {
-            Self::Held { samples, time } => format!(
-                "holds one value for {samples} samples within the pulse, from {} on: samples were dropped",
-                ms(time)
-            ),
-            Self::Dropped { gaps, time, longest, usual } => format!(
-                "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
-                if gaps == 1 { "place" } else { "places" },
-                ms(time),
-                ms(longest),
-                ms(usual)
-            ),
-            Self::Spikes { count, time } => format!(
-                "{count} {} out of line with both neighbours, the first one at {}",
-                if count == 1 { "sample is" } else { "samples are" },
-                ms(time)
-            ),
-            Self::UnevenSteps { range } => format!(
-                "its steps are uneven, from {} to {}; a line between samples takes them as they are",
-                ms(range.0),
-                ms(range.1)
-            ),
-            Self::FewSamples { samples } => {
-                format!("its pulse has {samples} samples: the sampling rate is too low")
-            }
-            Self::Cut => "the record begins or ends within the pulse: its numbers are those of a part".to_owned(),
-            Self::SlowForClass { rate, class, least } => format!(
-                "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
-                quantity(rate, "Hz", DIGITS),
-                quantity(least, "Hz", DIGITS)
-            ),
-            Self::OddClass { class } => {
-                format!("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")
-            }
-            Self::OddLength { length } => format!(
-                "a pulse of {} is none of an impact: is the unit of time right?",
-                ms(length)
-            ),
-            Self::OtherFilter => "went through another filter class than other axes of its location, and is no part of their resultant".to_owned(),
-            Self::AxisTwice => "is one of two channels of the same axis: no resultant is formed; `--channel` names one of each axis".to_owned(),
-            Self::AxesApart => "was not recorded at the times at which the other axes of its location were: no resultant is formed".to_owned(),
-            _ => return None,
-        })
-    }
+fn seconds(time: f64) -> String {
+    quantity(time, "s", DIGITS)
 }
 
 /// A value as the field writes it: accelerations in g.
@@ -202,7 +160,7 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
         return vec![Defect::Flat { value: first, unit }];
     }
     let mut all = Vec::new();
-    all.extend(clipped(&own.raw, unit));
+    all.extend(clipped(own, unit));
     all.extend(held(own));
     all.extend(dropped(own));
     all.extend(spikes(&own.raw));
@@ -221,41 +179,16 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     all
 }
 
-/// Runs of equal samples of which both neighbours differ by more than the resolution: first sample and length.
-fn runs(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let values = channel.values();
-    let slope = COARSE_STEPS * channel.resolution();
-    let chunks = values.chunk_by(|one, other| one.total_cmp(other).is_eq());
-    chunks
-        .scan(0, |at, chunk| {
-            let start = *at;
-            *at += chunk.len();
-            Some((start, chunk.len()))
-        })
-        .filter(move |&(start, length)| {
-            let end = start + length;
-            let stands_out = |neighbour: Option<&f64>| {
-                neighbour.is_none_or(|own| (own - values[start]).abs() > slope)
-            };
-            let before = start.checked_sub(1).and_then(|at| values.get(at));
-            length >= EQUAL
-                && length < values.len()
-                && stands_out(before)
-                && stands_out(values.get(end))
-        })
-}
-
-fn clipped(channel: &Channel, unit: Dimension) -> Option<Defect> {
-    let (_, peak) = channel.largest();
-    let of_peak = |&(start, _): &(usize, usize)| channel.values()[start].abs() >= peak;
-    let mut all = runs(channel).filter(of_peak).peekable();
-    let (start, _) = *all.peek()?;
-    Some(Defect::Clipped {
-        level: channel.values()[start],
-        samples: all.map(|own| own.1).sum(),
-        time: channel.times()[start],
-        unit,
-    })
+/// What is clipped of a channel of its own, or of the axes of a resultant.
+fn clipped(own: &Analysis, unit: Dimension) -> Option<Defect> {
+    let is_recorded = !matches!(own.part, Part::Resultant { .. });
+    let (from, _) = *own.clipped.first().filter(|_| is_recorded)?;
+    let times = own.raw.times();
+    let count = |(from, to): &(f64, f64)| {
+        times.partition_point(|time| time <= to) - times.partition_point(|time| time < from)
+    };
+    let samples = own.clipped.iter().map(count).sum();
+    Some(Defect::Clipped { axis: None, level: own.raw.value(from), samples, time: from, unit })
 }
 
 fn held(own: &Analysis) -> Option<Defect> {

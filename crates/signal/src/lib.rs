@@ -11,11 +11,12 @@
 
 mod analysis;
 mod axes;
-mod blow;
 mod cfc;
 mod channel;
+mod clipping;
 mod contact;
 mod defects;
+mod impact;
 pub mod iso_mme;
 mod measures;
 mod motion;
@@ -30,17 +31,18 @@ mod whitener;
 mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
-pub use axes::{Axis, Place};
-pub use blow::Blow;
+pub use axes::{Axis, Label, Place, Places};
 pub use cfc::{Cfc, CfcFault, Padding};
-pub use channel::{Channel, ChannelFault, Polarity, Steps};
+pub use channel::{Channel, ChannelFault, Steps};
+pub use clipping::Truth;
 pub use contact::{CONTACT_LEVEL, Contact};
 pub use defects::Defect;
+pub use impact::Impact;
 pub use measures::{Measure, Reading, Reason};
 pub use motion::{Approach, Motion};
-pub use noise::{Doubt, Noise};
+pub use noise::{Noise, Uncertainty};
 pub use offset::Offset;
-pub use rating::{Grade, Rating, Unrated};
+pub use rating::{Rating, Unrated};
 pub use recorder::Recorder;
 pub use repeats::{Band, Repeated};
 pub use resultant::Part;

@@ -7,8 +7,11 @@ use dashpot_analysis::{
     measures::{Exceedance, STANDARD_GRAVITY, hic_search::Windows},
 };
 use dashpot_units::Dimension;
+use thiserror::Error;
 
-use crate::{Approach, Channel, Contact, Doubt, Motion, sampling::Sampling};
+use crate::{
+    Approach, Channel, Contact, Motion, Truth, Uncertainty, clipping::Clipping, sampling::Sampling,
+};
 
 /// The time of a clip \[s\].
 const CLIP: f64 = 0.003;
@@ -41,7 +44,7 @@ pub enum Measure {
     Clip3ms,
     /// The same within one stretch.
     Clip3msAtOnce,
-    /// The largest displacement since the blow began \[m\].
+    /// The largest displacement since the impact began \[m\].
     Displacement,
     /// The speed at which a body comes back \[m/s\].
     ReboundVelocity,
@@ -56,10 +59,14 @@ pub enum Measure {
 }
 
 /// Why a measure has no value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Reason {
     /// The record is shorter than the time of a clip.
+    #[error("the record is too short")]
     RecordTooShort,
+    /// It is clipped, and nothing bounds it.
+    #[error("clipped, which leaves it open")]
+    Clipped,
 }
 
 impl Reason {
@@ -67,6 +74,7 @@ impl Reason {
     pub fn code(self) -> &'static str {
         match self {
             Self::RecordTooShort => "record-too-short",
+            Self::Clipped => "clipped",
         }
     }
 }
@@ -78,7 +86,9 @@ pub struct Reading {
     pub measure: Measure,
     /// The value, on straight lines between samples and over continuous windows.
     pub value: Result<f64, Reason>,
-    /// How far it may be off: by what samples do not tell, by the offset, by the resolution, by noise.
+    /// What it says of the truth.
+    pub truth: Truth,
+    /// How far it may be off: by what samples do not tell, by the offset, by the resolution, by noise; 0 of a bound.
     pub error: f64,
     /// When it is \[s\], where it is at one time.
     pub time: Option<f64>,
@@ -90,7 +100,13 @@ pub struct Reading {
 
 impl Reading {
     pub(crate) fn new(measure: Measure, value: f64, error: f64) -> Self {
-        Self { measure, value: Ok(value), error, time: None, window: None, on_samples: None }
+        let (value, truth) = (Ok(value), Truth::Within);
+        Self { measure, value, truth, error, time: None, window: None, on_samples: None }
+    }
+
+    /// Its error, where it has a value that is no bound.
+    pub fn bar(&self) -> Option<f64> {
+        self.value.ok().filter(|_| self.truth == Truth::Within).map(|_| self.error)
     }
 
     fn over(self, window: (f64, f64)) -> Self {
@@ -187,40 +203,45 @@ impl Measure {
 pub(crate) struct Reader<'c> {
     channel: &'c Channel,
     sampling: Sampling<'c>,
-    doubt: Doubt,
+    uncertainty: Uncertainty,
+    clipping: Option<Clipping>,
     exceedance: Option<Exceedance>,
     criteria: OnceCell<Vec<Reading>>,
 }
 
 impl<'c> Reader<'c> {
-    pub(crate) fn new(channel: &'c Channel, doubt: Doubt) -> Self {
+    pub(crate) fn new(
+        channel: &'c Channel,
+        uncertainty: Uncertainty,
+        clipping: Option<Clipping>,
+    ) -> Self {
         let is_acceleration = channel.dimension() == Dimension::ACCELERATION;
         let exceedance =
             is_acceleration.then(|| Exceedance::new(&channel.signal(1.0), channel.span()));
         let (sampling, criteria) = (Sampling::of(channel), OnceCell::new());
-        Self { channel, sampling, doubt, exceedance, criteria }
+        Self { channel, sampling, uncertainty, clipping, exceedance, criteria }
     }
 
     /// The motion of the body that an acceleration is on, or that a force acts on.
     pub(crate) fn motion(&self, approach: Approach) -> Motion {
-        let (contact, doubt) = (self.contact(), &self.doubt);
+        let (contact, uncertainty) = (self.contact(), &self.uncertainty);
         match approach.mass.filter(|_| self.channel.dimension() == Dimension::FORCE) {
-            None => Motion::of(self.channel, &self.sampling, approach, contact, doubt),
+            None => Motion::of(self.channel, &self.sampling, approach, contact, uncertainty),
             Some(mass) => {
                 let channel = self.channel.over(mass, Dimension::ACCELERATION);
                 let sampling = Sampling::of(&channel);
-                Motion::of(&channel, &sampling, approach, contact, &doubt.over(mass))
+                Motion::of(&channel, &sampling, approach, contact, &uncertainty.over(mass))
             }
         }
     }
 
     pub(crate) fn contact(&self) -> Contact {
-        Contact::of(self.channel, &self.sampling, &self.doubt)
+        Contact::of(self.channel, &self.sampling, &self.uncertainty)
     }
 
-    /// What a measure says; `None` of one of another dimension, of motion or of work.
+    /// What a measure says, as far as the record is not clipped; `None` of one of another dimension, of motion or of work.
     pub(crate) fn read(&self, measure: Measure) -> Option<Reading> {
-        Some(match measure {
+        let reading = match measure {
             Measure::Peak => self.peak(),
             Measure::ContactTime => {
                 let contact = self.contact();
@@ -235,14 +256,17 @@ impl<'c> Reader<'c> {
             Measure::Clip3ms => self.clip(measure, Counted::Together)?,
             Measure::Clip3msAtOnce => self.clip(measure, Counted::AtOnce)?,
             _ => return None,
-        })
+        };
+        Some(self.clipping.map_or(reading, |own| own.left(reading, None)))
     }
 
     fn peak(&self) -> Reading {
         let (at, value) = self.channel.largest();
-        let Doubt { floor, noise, .. } = self.doubt;
+        let Uncertainty { floor, noise, .. } = self.uncertainty;
         let noise = noise.extreme_near(self.channel.values(), value);
-        let error = self.sampling.overshoot() + floor + noise;
+        // Above the end of a range no line tells what is hidden.
+        let hidden = if self.clipping.is_some() { 0.0 } else { self.sampling.overshoot() };
+        let error = hidden + floor + noise;
         let reading = Reading::new(Measure::Peak, value, error);
         Reading { time: self.channel.times().get(at).copied(), ..reading }
     }
@@ -257,7 +281,7 @@ impl<'c> Reader<'c> {
 
     /// How far the integral over a window may be off \[unit s\].
     fn hidden(&self, window: (f64, f64)) -> f64 {
-        let Doubt { floor, noise, .. } = self.doubt;
+        let Uncertainty { floor, noise, .. } = self.uncertainty;
         let length = window.1 - window.0;
         self.sampling.area(window) + floor * length + noise.area(length)
     }
@@ -291,7 +315,7 @@ impl<'c> Reader<'c> {
     fn severity(&self) -> Reading {
         let (times, values) = (self.channel.times(), self.channel.values());
         let (mut value, mut error, mut variance, mut on_samples) = (0.0, 0.0, 0.0, 0.0);
-        let Doubt { floor, noise, .. } = self.doubt;
+        let Uncertainty { floor, noise, .. } = self.uncertainty;
         let scatter = noise.deviation / STANDARD_GRAVITY;
         let index = |own: f64| (own.abs() / STANDARD_GRAVITY).powf(EXPONENT);
         for at in 0..times.len() - 1 {
@@ -323,10 +347,15 @@ impl<'c> Reader<'c> {
         }
         let level = |duration: f64| exceedance.level(duration, counted).value;
         let value = level(CLIP);
-        let shift = self.sampling.passages(value, span, f64::abs);
+        let shifts = self.sampling.passages(value, span, f64::abs);
+        let shift = match counted {
+            Counted::Together => shifts.sum(),
+            // A stretch has two ends.
+            Counted::AtOnce => 2.0 * shifts.fold(0.0, f64::max),
+        };
         let apart = [CLIP - shift, CLIP + shift].map(|own| (level(own.max(0.0)) - value).abs());
-        let noise = self.doubt.noise.extreme_near(self.channel.values(), value);
-        let error = apart[0].max(apart[1]) + self.doubt.floor + noise;
+        let noise = self.uncertainty.noise.extreme_near(self.channel.values(), value);
+        let error = apart[0].max(apart[1]) + self.uncertainty.floor + noise;
         Some(Reading::new(measure, value, error))
     }
 }

@@ -1,21 +1,21 @@
 //! Velocity and displacement of what an accelerometer is on, or of a free striker that a force acts on.
 
-use crate::{Blow, Channel, Contact, Doubt, Measure, Reading, sampling::Sampling};
+use crate::{Channel, Contact, Impact, Measure, Reading, Uncertainty, sampling::Sampling};
 
-/// How a body moves before the blow.
+/// How a body moves before the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// Its speed when the blow begins \[m/s\], along the blow.
+    /// Its speed when the impact begins \[m/s\], along the impact.
     pub velocity: f64,
     /// Its mass \[kg\], where energies are wanted; a force on it needs one.
     pub mass: Option<f64>,
-    /// What it would gain in free fall, along the blow \[m/s²\]; 0 where nothing pulls it.
+    /// What it would gain in free fall, along the impact \[m/s²\]; 0 where nothing pulls it.
     pub gravity: f64,
-    /// When the blow begins \[s\], where the record is not to tell it.
+    /// When the impact begins \[s\], where the record is not to tell it.
     pub touch: Option<f64>,
 }
 
-/// The motion of a body along the blow: `v = V + g t − ∫ a dt` from the touch on, where its peak acceleration slows it
+/// The motion of a body along the impact: `v = V + g t − ∫ a dt` from the touch on, where its peak acceleration slows it
 /// down; before it flies freely. What lines between samples hide and what the offset leaves adds up in the errors, an
 /// offset `b` to `b t` in the velocity and `b t²/2` in the displacement; of noise two standard deviations, `2 √(q t)` and
 /// `2 √(q t³/3)` with its intensity `q`.
@@ -29,8 +29,8 @@ pub struct Motion {
     pub displacement: Vec<f64>,
     /// How far they may be off.
     pub displacement_error: Vec<f64>,
-    /// From when to when the blow is.
-    pub blow: Blow,
+    /// From when to when the impact is.
+    pub impact: Impact,
 }
 
 impl Motion {
@@ -39,37 +39,38 @@ impl Motion {
         sampling: &Sampling<'_>,
         approach: Approach,
         contact: Contact,
-        doubt: &Doubt,
+        uncertainty: &Uncertainty,
     ) -> Self {
         let (times, values) = (channel.times(), channel.values());
-        let (sign, weight) = (-channel.polarity().sign(), approach.gravity);
-        let blow = Blow::of(channel, contact, doubt, approach.touch);
+        let (sign, weight) = (-channel.sign(), approach.gravity);
+        let impact = Impact::of(channel, contact, uncertainty, approach.touch);
         let count = times.len();
         let mut own = Self {
             velocity: Vec::with_capacity(count),
             velocity_error: Vec::with_capacity(count),
             displacement: Vec::with_capacity(count),
             displacement_error: Vec::with_capacity(count),
-            blow,
+            impact,
         };
-        let of_touch = approach.velocity * blow.error;
-        for time in &times[..=blow.begin] {
-            let ahead = blow.touch - time;
+        let of_touch = approach.velocity * impact.error;
+        for time in &times[..=impact.begin] {
+            let ahead = impact.touch - time;
             let v = approach.velocity - weight * ahead;
             own.push((v, 0.0), (-0.5 * ahead * (approach.velocity + v), of_touch));
         }
         let (mut v, mut v_error, mut x, mut x_error) = (approach.velocity, 0.0, 0.0, of_touch);
-        let start = if approach.touch.is_some() { channel.value(blow.touch) } else { doubt.rest };
-        let (mut before, mut one) = (blow.touch, sign * start + weight);
-        for at in blow.begin + 1..count {
+        let start =
+            if approach.touch.is_some() { channel.value(impact.touch) } else { uncertainty.rest };
+        let (mut before, mut one) = (impact.touch, sign * start + weight);
+        for at in impact.begin + 1..count {
             let (step, other) = (times[at] - before, sign * values[at] + weight);
             // The acceleration is a line, the velocity a parabola, the displacement a cubic.
             x += step * v + step * step * (2.0 * one + other) / 6.0;
             v += 0.5 * step * (one + other);
-            v_error += sampling.hidden(at - 1).area + doubt.floor * step;
+            v_error += sampling.hidden(at - 1).area + uncertainty.floor * step;
             x_error += step * v_error;
-            let since = times[at] - blow.touch;
-            let noise = doubt.noise.area(since);
+            let since = times[at] - impact.touch;
+            let noise = uncertainty.noise.area(since);
             own.push((v, v_error + noise), (x, x_error + since * noise / 3.0_f64.sqrt()));
             (before, one) = (times[at], other);
         }
@@ -83,9 +84,9 @@ impl Motion {
         self.displacement_error.push(displacement.1);
     }
 
-    /// The deepest point of the blow: where the velocity passes zero, or else the last one.
+    /// The deepest point of the impact: where the velocity passes zero, or else the last one.
     fn turn(&self, times: &[f64]) -> Turn {
-        let Blow { begin, end, .. } = self.blow;
+        let Impact { begin, end, .. } = self.impact;
         let Some(at) =
             (begin..end).find(|&at| self.velocity[at] > 0.0 && self.velocity[at + 1] <= 0.0)
         else {
@@ -99,7 +100,7 @@ impl Motion {
         };
         // Between samples the velocity is nearly a line.
         let before = self.velocity[at];
-        let from = times[at].max(self.blow.touch);
+        let from = times[at].max(self.impact.touch);
         let step = times[at + 1] - from;
         let share = before / (before - self.velocity[at + 1]);
         let further = 0.5 * share * step * before;
@@ -112,15 +113,20 @@ impl Motion {
         }
     }
 
-    /// The speed at which it comes back \[m/s\], and how far that may be off.
-    pub fn rebound(&self) -> (f64, f64) {
-        (-self.velocity[self.blow.end], self.velocity_error[self.blow.end])
+    /// Whether it comes to rest within the impact.
+    pub(crate) fn turns(&self) -> bool {
+        self.velocity[self.impact.begin..=self.impact.end].iter().any(|own| *own <= 0.0)
     }
 
-    /// What it says of the blow.
+    /// The speed at which it comes back \[m/s\], and how far that may be off.
+    pub fn rebound(&self) -> (f64, f64) {
+        (-self.velocity[self.impact.end], self.velocity_error[self.impact.end])
+    }
+
+    /// What it says of the impact.
     pub(crate) fn readings(&self, channel: &Channel, approach: Approach) -> Vec<Reading> {
         let times = channel.times();
-        let end = self.blow.end;
+        let end = self.impact.end;
         let turn = self.turn(times);
         let (back, back_error) = self.rebound();
         let of = |measure: Measure, (value, error): (f64, f64), time: f64| Reading {

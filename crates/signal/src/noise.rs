@@ -1,5 +1,7 @@
 //! How far a channel may be off besides what lines between its samples hide: noise, resolution, what it reads at rest.
 
+use serde::Serialize;
+
 use crate::{Cfc, Channel, Offset};
 
 /// The standard deviation in parts of the median magnitude of normal noise.
@@ -12,7 +14,7 @@ const BANDWIDTH: f64 = 0.833_04;
 const NEAR: usize = 20;
 
 /// Noise of the samples of a channel.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Noise {
     /// Standard deviation of a sample, in the unit of the channel.
     pub deviation: f64,
@@ -20,6 +22,7 @@ pub struct Noise {
     pub intensity: f64,
     /// Whether it was measured at rest before the pulse; otherwise by fourth differences of the whole record, which see no
     /// noise that was filtered before.
+    #[serde(rename = "at_rest")]
     pub is_of_rest: bool,
 }
 
@@ -70,7 +73,7 @@ fn of_differences(values: &[f64]) -> f64 {
 
 /// How far the samples of a channel may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Doubt {
+pub struct Uncertainty {
     /// All in the same direction, in the unit of the channel: by half a resolution, by the error of the offset that was
     /// taken off or the reading at rest that was not, and by what else is stated.
     pub floor: f64,
@@ -80,7 +83,7 @@ pub struct Doubt {
     pub noise: Noise,
 }
 
-impl Doubt {
+impl Uncertainty {
     /// How far a passage of a level may be off to either side, in the unit of the channel.
     pub(crate) fn of_passages(&self) -> f64 {
         self.floor + self.noise.extreme(NEAR)

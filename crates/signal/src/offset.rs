@@ -1,5 +1,7 @@
 //! The reading of a sensor at rest, from the record before the pulse.
 
+use serde::Serialize;
+
 use crate::Channel;
 
 /// Parts of the peak at which a pulse has begun for certain, and by which its steepness is judged.
@@ -13,7 +15,7 @@ const FEWEST: usize = 8;
 const BLOCKS: usize = 8;
 
 /// What a channel reads at rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Offset {
     /// The mean before the pulse, in SI units.
     pub value: f64,
@@ -21,6 +23,7 @@ pub struct Offset {
     /// the change from the first to the second half, and half of the resolution where no noise blurs it.
     pub error: f64,
     /// Standard error of the mean, by the scatter of the means of eight blocks.
+    #[serde(skip)]
     pub standard_error: f64,
     /// From when to when the mean is taken \[s\].
     pub window: (f64, f64),
@@ -31,6 +34,7 @@ pub struct Offset {
     /// Change from the first half of the window to the second, per time \[unit/s\].
     pub drift: f64,
     /// Whether the change is more than the noise explains.
+    #[serde(skip)]
     pub is_drifting: bool,
 }
 

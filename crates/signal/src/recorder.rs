@@ -1,6 +1,6 @@
 //! What a recorder makes of a curve: samples at its times, through the filter that its record went through.
 
-use crate::{Cfc, Channel, Padding, SettingsFault};
+use crate::{Cfc, Channel, Padding, SettingsFault, Steps};
 
 /// Times of samples, and the filter behind them. It makes of a model's curve what a record has made of the measured
 /// one, so that both can be compared.
@@ -47,23 +47,12 @@ impl Recorder {
         let values = vec![0.0; times.len()];
         let channel = Channel::new("", dashpot_units::Dimension::NUMBER, times, values)
             .map_err(SettingsFault::NothingLeft)?;
-        Self::of(&channel, Some((cfc, padding)))
-    }
-
-    /// That of a channel which went through this filter.
-    ///
-    /// # Errors
-    ///
-    /// As [`Recorder::new`].
-    pub fn of(channel: &Channel, filter: Option<(Cfc, Padding)>) -> Result<Self, SettingsFault> {
-        let times = channel.times().to_vec();
-        let Some((cfc, padding)) = filter else { return Ok(Self { times, filter: None }) };
-        let steps = channel.steps();
-        if !steps.are_even {
-            return Err(SettingsFault::UnevenSteps { range: steps.range });
+        let Steps { rate, range, are_even, .. } = channel.steps();
+        if !are_even {
+            return Err(SettingsFault::UnevenSteps { range });
         }
-        let rate = steps.rate;
         cfc.filter(&[0.0], rate, padding)?;
+        let times = channel.times().to_vec();
         Ok(Self { times, filter: Some(Filter { cfc, padding, rate }) })
     }
 

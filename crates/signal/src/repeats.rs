@@ -1,6 +1,6 @@
 //! Several tests of the same: mean, scatter, repeatability.
 
-use crate::{Analysis, Measure};
+use crate::{Analysis, Measure, Truth};
 
 /// Points of a band over time.
 const POINTS: usize = 400;
@@ -35,6 +35,10 @@ impl Repeated {
 
     fn one(tests: &[&Analysis], measure: Measure) -> Option<Self> {
         let found = tests.iter().filter_map(|own| own.reading(measure));
+        // Bounds have no mean and no scatter.
+        if found.clone().any(|own| own.truth != Truth::Within) {
+            return None;
+        }
         let found: Vec<(f64, f64)> =
             found.filter_map(|own| Some((own.value.ok()?, own.error))).collect();
         let count = found.len() as f64;

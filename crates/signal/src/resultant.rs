@@ -38,6 +38,14 @@ impl Part {
         axes.is_empty() || along.iter().all(|own| axes.contains(own))
     }
 
+    /// What the names of the axes of its place have in common; `None` where nothing tells a place.
+    pub fn location(&self) -> Option<&str> {
+        match self {
+            Self::Whole => None,
+            Self::Axis(Place { location, .. }) | Self::Resultant { location, .. } => Some(location),
+        }
+    }
+
     fn place(&self) -> Option<&Place> {
         match self {
             Self::Axis(place) => Some(place),
@@ -51,7 +59,7 @@ impl Analysis {
     /// with the same filter class where codes tell one. Axes without their resultant have a defect that says why. Where
     /// a channel has the name of a resultant, it was recorded, and is none of these.
     pub fn resultants(all: &mut [Self]) -> Vec<Self> {
-        let (mut resultants, mut found) = (Vec::new(), Vec::new());
+        let mut resultants = Vec::new();
         for at in 0..all.len() {
             let beside: Vec<usize> =
                 (0..all.len()).filter(|own| all[at].is_beside(&all[*own])).collect();
@@ -65,23 +73,35 @@ impl Analysis {
                 Axis::ALL.map(|axis| some.iter().any(|own| all[*own].part.axes() == [axis]))
             };
             if axes(&alike) != axes(&beside) {
-                found.extend(alike.iter().map(|own| (*own, Defect::OtherFilter)));
+                let others: Vec<usize> =
+                    beside.into_iter().filter(|own| !alike.contains(own)).collect();
+                Self::leave_apart(all, &alike, &others, Some(Defect::OtherFilter));
             }
             let Some(place) = all[at].part.place().filter(|_| alike.len() > 1) else { continue };
             let name = place.resultant.clone();
             if all.iter().any(|own| own.channel.name() == name) {
+                Self::leave_apart(all, &alike, &alike, None);
                 continue;
             }
             let axes: Vec<&Self> = alike.iter().map(|own| &all[*own]).collect();
             match Self::resultant(name, &place.location, axes) {
                 Ok(own) => resultants.push(own),
-                Err(defect) => found.extend(alike.iter().map(|own| (*own, defect))),
+                Err(defect) => Self::leave_apart(all, &alike, &alike, Some(defect)),
             }
         }
-        for (at, defect) in found {
-            all[at].defects.push(defect);
-        }
         resultants
+    }
+
+    /// Tells of some axes that others of their location form no resultant with them.
+    fn leave_apart(all: &mut [Self], some: &[usize], others: &[usize], defect: Option<Defect>) {
+        for at in some {
+            let axes = all[*at].part.axes();
+            let others = others.iter().filter(|own| all[**own].part.axes() != axes);
+            let names: Vec<String> =
+                others.map(|own| all[*own].channel.name().to_owned()).collect();
+            all[*at].beside.extend(names);
+            all[*at].defects.extend(defect);
+        }
     }
 
     fn is_beside(&self, other: &Self) -> bool {
@@ -114,14 +134,15 @@ impl Analysis {
         let is_sampled = |own: &Self| own.channel.times() == finest.channel.times();
         let floor = norm(&mut axes.iter().map(|own| {
             let hidden = if is_sampled(own) { 0.0 } else { Sampling::of(&own.channel).height() };
-            own.doubt.floor + hidden
+            own.uncertainty.floor + hidden
         }));
-        let most =
-            |of: fn(&Noise) -> f64| axes.iter().map(|own| of(&own.doubt.noise)).fold(0.0, f64::max);
+        let most = |of: fn(&Noise) -> f64| {
+            axes.iter().map(|own| of(&own.uncertainty.noise)).fold(0.0, f64::max)
+        };
         let noise = Noise {
             deviation: most(|own| own.deviation),
             intensity: most(|own| own.intensity),
-            is_of_rest: axes.iter().all(|own| own.doubt.noise.is_of_rest),
+            is_of_rest: axes.iter().all(|own| own.uncertainty.noise.is_of_rest),
         };
         let values =
             times.iter().map(|time| norm(&mut axes.iter().map(|own| own.channel.value(*time))));
@@ -138,10 +159,24 @@ impl Analysis {
         let floor = floor + if longer.is_finite() { longer } else { 0.0 };
         let raw = channel.clone();
         let treated = Treated { channel, offset: None, removed: None, floor, rest: 0.0 };
-        let mut own = settings.read(raw, treated, noise, part);
+        let clipped = axes.iter().flat_map(|own| own.clipped.iter().copied()).collect();
+        let mut own = settings.read(raw, treated, noise, (part, clipped));
         own.defects = defects(&own);
-        let clipped = axes.iter().flat_map(|own| &own.defects);
-        own.defects.extend(clipped.filter(|own| matches!(own, Defect::Clipped { .. })));
+        for other in axes {
+            own.beside.extend(other.beside.iter().cloned());
+            let axis = other.part.place().map(|own| own.axis);
+            own.defects.extend(other.defects.iter().filter_map(|defect| match *defect {
+                Defect::Clipped { level, samples, time, unit, .. } => {
+                    Some(Defect::Clipped { axis, level, samples, time, unit })
+                }
+                _ => None,
+            }));
+        }
+        own.beside.sort();
+        own.beside.dedup();
+        if own.part.axes().len() == Axis::ALL.len() {
+            own.beside.clear();
+        }
         Ok(own)
     }
 }

@@ -91,16 +91,15 @@ impl<'c> Sampling<'c> {
         (0..values.len() - 1).map(above).fold(0.0, f64::max)
     }
 
-    /// How far the time at which what is made of the values passes a level may be off, added up over all steps in a
-    /// window in which it passes \[s\].
+    /// How far the time at which what is made of the values passes a level may be off, in each step of a window \[s\].
     pub(crate) fn passages(
         &self,
         level: f64,
         window: (f64, f64),
         made: impl Fn(f64) -> f64,
-    ) -> f64 {
+    ) -> impl Iterator<Item = f64> {
         let (times, values) = (self.channel.times(), self.channel.values());
-        let shift = |at: usize| {
+        let shift = move |at: usize| {
             let [one, other] = [made(values[at]), made(values[at + 1])];
             let step = times[at + 1] - times[at];
             if (one < level) == (other < level) {
@@ -109,6 +108,6 @@ impl<'c> Sampling<'c> {
             let height = self.hidden(at).height.abs();
             (height * step / (other - one).abs()).min(step)
         };
-        self.steps(window).map(shift).sum()
+        self.steps(window).map(shift)
     }
 }

@@ -309,7 +309,7 @@ fn the_work_of_a_force_is_the_area_of_its_loop() {
         (Measure::EnergyReturned, stored - lost),
     ] {
         let (value, error) = read(&own, measure);
-        // The blow is over where the damper begins to pull, with the last part of its work to come.
+        // The impact is over where the damper begins to pull, with the last part of its work to come.
         let rest = if measure == Measure::EnergyReturned { 5e-3 } else { 1e-3 };
         assert!(
             (value - expected).abs() <= error + rest * expected,

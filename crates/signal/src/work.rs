@@ -2,12 +2,12 @@
 
 use thiserror::Error;
 
-use crate::{Analysis, Blow, Doubt, Measure, Polarity, Reading, sampling::Sampling};
+use crate::{Analysis, Impact, Measure, Reading, Truth, Uncertainty, sampling::Sampling};
 
-/// What a blow does to a pad: the loop of force over displacement.
+/// What an impact does to a pad: the loop of force over displacement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Work {
-    /// Force in compression \[N\] and displacement since the blow began \[m\], at the samples of the blow.
+    /// Force in compression \[N\] and displacement since the impact began \[m\], at the samples of the impact.
     pub points: Vec<(f64, f64)>,
     /// Work done until the deepest point \[J\], with how far it may be off.
     pub taken: (f64, f64),
@@ -30,7 +30,7 @@ pub enum WorkFault {
 }
 
 impl Work {
-    /// The work of a force over a displacement, both along the blow: the force counts as positive where it points as its
+    /// The work of a force over a displacement, both along the impact: the force counts as positive where it points as its
     /// peak does, the displacement where it is largest. Between samples both are lines, so that the product is exact on
     /// them; the error is what every second sample would change, what the forces of half a resolution do, and noise.
     ///
@@ -38,15 +38,15 @@ impl Work {
     ///
     /// [`WorkFault`].
     pub fn of(force: &Analysis, displacement: &Analysis) -> Result<Self, WorkFault> {
-        let doubts = [force.doubt, displacement.doubt];
-        let blow = Blow::of(&force.channel, force.contact, &force.doubt, None);
+        let uncertainties = [force.uncertainty, displacement.uncertainty];
+        let impact = Impact::of(&force.channel, force.contact, &force.uncertainty, None);
         let (force, displacement) = (&force.channel, &displacement.channel);
         if force.times() != displacement.times() {
             return Err(WorkFault::OtherTimes);
         }
-        let (first, last) = (blow.begin, blow.end);
+        let (first, last) = (impact.begin, impact.end);
         let start = displacement.values()[first];
-        let sign = if force.polarity() == Polarity::Positive { 1.0 } else { -1.0 };
+        let sign = force.sign();
         let moved = |at: usize| displacement.values()[at] - start;
         let far = |best: f64, own: f64| if own.abs() > best.abs() { own } else { best };
         let most = (first..=last).map(moved).fold(0.0, far);
@@ -58,8 +58,10 @@ impl Work {
         let deepest = most.abs();
         let turn = points.iter().position(|own| own.1 >= deepest).unwrap_or(0);
         let peak = points.iter().map(|own| own.0.abs()).fold(0.0, f64::max);
-        let [floor, still] =
-            [doubts[0].floor, doubts[1].floor + doubts[1].noise.extreme(points.len())];
+        let [floor, still] = [
+            uncertainties[0].floor,
+            uncertainties[1].floor + uncertainties[1].noise.extreme(points.len()),
+        ];
         let step = force.steps().rate.recip();
         let of = |part: &[(f64, f64)], sign: f64| {
             let whole = area(part.iter());
@@ -70,8 +72,8 @@ impl Work {
                     |of: fn(&(f64, f64)) -> f64| (0.5 * (of(&own[2]) - of(&own[0]))).powi(2);
                 (sum.0 + weight(|own| own.1), sum.1 + weight(|own| own.0))
             });
-            let variance =
-                doubts[0].noise.intensity * squares.0 + doubts[1].noise.intensity * squares.1;
+            let variance = uncertainties[0].noise.intensity * squares.0
+                + uncertainties[1].noise.intensity * squares.1;
             let noise = 2.0 * (variance / step).sqrt();
             let error = (whole - halved).abs() + floor * deepest + 2.0 * still * peak + noise;
             (sign * whole, error)
@@ -80,7 +82,7 @@ impl Work {
         Ok(Self { points, taken, returned, deepest })
     }
 
-    /// What it says of the blow.
+    /// What it says of the impact.
     fn readings(&self) -> [Reading; 4] {
         let of = |measure, (value, error)| Reading::new(measure, value, error);
         [
@@ -106,10 +108,19 @@ impl Analysis {
     pub fn add_work(&mut self, displacement: &Self) -> Result<(), WorkFault> {
         let work = Work::of(self, displacement)?;
         let mut all = work.readings();
-        let Doubt { floor, noise, .. } = displacement.doubt;
+        let Uncertainty { floor, noise, .. } = displacement.uncertainty;
         let noise =
             noise.extreme_near(displacement.channel.values(), displacement.channel.largest().1);
         all[0].error = 2.0 * (floor + noise) + Sampling::of(&displacement.channel).overshoot();
+        // What a force is beyond its range is more work on either way, and what a displacement is the same.
+        if !(self.clipped.is_empty() && displacement.clipped.is_empty()) {
+            let taken = |own: Reading| own.bounded(Truth::AtLeast);
+            let [_, one, other, absorbed] = all;
+            (all[1], all[2], all[3]) = (taken(one), taken(other), absorbed.open());
+        }
+        if !displacement.clipped.is_empty() {
+            all[0] = all[0].bounded(Truth::AtLeast);
+        }
         // What was measured goes before what is told by the force alone.
         self.readings.retain(|own| all.iter().all(|other| other.measure != own.measure));
         self.readings.extend(all);

@@ -23,11 +23,6 @@ impl ChannelCode {
         self.part(2, 6)
     }
 
-    /// What was measured: `AC` acceleration, `FO` force, `DS` displacement, `VE` velocity, `TI` time.
-    pub fn quantity(&self) -> Option<&str> {
-        self.part(12, 14)
-    }
-
     /// The letter of the direction: `X`, `Y` or `Z` of an axis, `R` of a resultant.
     pub fn direction(&self) -> Option<char> {
         self.part(14, 15)?.chars().next()

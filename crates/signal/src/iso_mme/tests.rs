@@ -102,7 +102,7 @@ fn every_way_to_write_a_header_says_the_same() {
         let found = read(&[&text]).unwrap().swap_remove(0);
         let code = found.code.unwrap();
         assert_eq!((code.text(), code.location()), (CODE, Some("HEAD")));
-        assert_eq!((code.quantity(), code.filter_class()), (Some("AC"), Some(1000.0)));
+        assert_eq!(code.filter_class(), Some(1000.0));
         assert_eq!(found.prefilter, None);
         let channel = found.channel;
         assert_eq!(channel.name(), "Head acceleration X");
@@ -168,5 +168,5 @@ fn broken_texts_are_refused_by_line() {
 #[test]
 fn a_code_of_another_length_says_nothing() {
     let code = ChannelCode::new("11HEAD");
-    assert_eq!((code.location(), code.quantity(), code.filter_class()), (None, None, None));
+    assert_eq!((code.location(), code.filter_class()), (None, None));
 }

@@ -5,6 +5,7 @@ mod magnitude;
 mod phase;
 mod slope;
 
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::Channel;
@@ -28,7 +29,7 @@ const WEIGHTS: [f64; 4] = [0.4, 0.2, 0.2, 0.2];
 ///
 /// `iso18571` in `docs/references.bib`. The constants are those of a public implementation, with which all scores agree
 /// (`tests/it/rating_reference.py`); the specification itself was not at hand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rating {
     /// How much of the time the model keeps within 5 % of the measured peak, and in part within 50 %.
     pub corridor: f64,
@@ -55,31 +56,6 @@ pub enum Unrated {
     /// The test is zero throughout.
     #[error("what was measured is zero throughout")]
     Zero,
-}
-
-/// What a rating is called.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Grade {
-    /// Up to 0.58.
-    Poor,
-    /// Above 0.58.
-    Fair,
-    /// Above 0.80.
-    Good,
-    /// Above 0.94.
-    Excellent,
-}
-
-impl Grade {
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Poor => "poor",
-            Self::Fair => "fair",
-            Self::Good => "good",
-            Self::Excellent => "excellent",
-        }
-    }
 }
 
 impl Unrated {
@@ -146,13 +122,13 @@ impl Rating {
         parts.iter().zip(WEIGHTS).map(|(own, weight)| own * weight).sum()
     }
 
-    /// What the overall rating is called.
-    pub fn grade(&self) -> Grade {
+    /// What the overall rating is called: `poor`, `fair` above 0.58, `good` above 0.80, `excellent` above 0.94.
+    pub fn grade(&self) -> &'static str {
         match self.overall() {
-            own if own > 0.94 => Grade::Excellent,
-            own if own > 0.80 => Grade::Good,
-            own if own > 0.58 => Grade::Fair,
-            _ => Grade::Poor,
+            own if own > 0.94 => "excellent",
+            own if own > 0.80 => "good",
+            own if own > 0.58 => "fair",
+            _ => "poor",
         }
     }
 }

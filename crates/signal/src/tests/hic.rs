@@ -11,20 +11,20 @@ use dashpot_numerics::{
 };
 use dashpot_units::Dimension;
 
-use crate::{Channel, Doubt, Measure, measures::Reader};
+use crate::{Channel, Measure, Uncertainty, measures::Reader};
 
 const CAPS: [(Measure, f64); 3] =
     [(Measure::Hic15, 0.015), (Measure::Hic36, 0.036), (Measure::Hic, f64::INFINITY)];
 
-/// A blow of one to three bumps of either sign with a ringing upon it \[g0\], over 60 ms.
-struct Blow {
+/// An impact of one to three bumps of either sign with a ringing upon it \[g0\], over 60 ms.
+struct Impact {
     /// Height, place and half width \[s\] of each.
     bumps: Vec<[f64; 3]>,
     /// Height, circular frequency \[1/s\] and rate of decay \[1/s\].
     ringing: [f64; 3],
 }
 
-impl Blow {
+impl Impact {
     fn random(stream: &mut Stream) -> Self {
         let bumps = (0..=stream.below(3)).map(|_| {
             let sign = if stream.below(4) == 0 { -1.0 } else { 1.0 };
@@ -80,11 +80,11 @@ fn a_scene_and_a_record_of_it_have_one_criterion_within_the_error_that_is_stated
     let mut stream = Stream::new(31);
     let mut errors = Vec::new();
     for at in 0..1000 {
-        let blow = Blow::random(&mut stream);
-        let signal = blow.signal();
+        let impact = Impact::random(&mut stream);
+        let signal = impact.signal();
         let rate = stream.between(5e3, 100e3);
-        let channel = blow.channel(rate);
-        let reader = Reader::new(&channel, Doubt::default());
+        let channel = impact.channel(rate);
+        let reader = Reader::new(&channel, Uncertainty::default(), None);
         let (measure, cap) = CAPS[at % CAPS.len()];
         let scene = optimum(&signal, (0.0, 0.06), cap);
         let record = reader.read(measure).unwrap();
@@ -203,7 +203,7 @@ fn a_long_record_of_equal_pulses_has_that_of_one_and_of_all() {
     };
     let values = (0..100_000).map(value).collect();
     let channel = Channel::new("a", Dimension::ACCELERATION, times, values).unwrap();
-    let reader = Reader::new(&channel, Doubt::default());
+    let reader = Reader::new(&channel, Uncertainty::default(), None);
     let of = |measure| {
         let own = reader.read(measure).unwrap();
         (own.value.unwrap(), own.error, own.on_samples.unwrap())

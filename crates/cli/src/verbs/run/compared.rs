@@ -5,7 +5,7 @@ use dashpot_dae::Signal;
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::{Of, Table};
 use dashpot_scene::Scene;
-use dashpot_signal::{Analysis, Approach, Channel, Rating, Reading, Settings, Unrated};
+use dashpot_signal::{Analysis, Approach, Channel, Rating, Reading, Settings, Truth, Unrated};
 use serde::Serialize;
 
 use super::{
@@ -13,9 +13,12 @@ use super::{
     deviations::Compared,
 };
 use crate::{
-    numbers::{MOST_DIGITS, bound, digits, percent_signed, quantity},
+    numbers::{percent_signed, quantity},
     output::{Pairs, list},
-    verbs::signal::{object::ReadingObject, words::unit_of},
+    verbs::signal::{
+        object::ReadingObject,
+        words::{shown, unit_of},
+    },
 };
 
 /// Digits of scores.
@@ -120,9 +123,7 @@ pub(super) fn scores(all: &[Compared<'_>]) -> Vec<Vec<String>> {
         }
     };
     vec![
-        row("rating (ISO/TS 18571)", &|own| {
-            format!("{}, {}", score(own.overall()), own.grade().word())
-        }),
+        row("rating (ISO/TS 18571)", &|own| format!("{}, {}", score(own.overall()), own.grade())),
         row("  corridor", &|own| score(own.corridor)),
         row("  phase", &late),
         row("  magnitude", &|own| score(own.magnitude)),
@@ -160,17 +161,21 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
     let row = |(measured, model): (&Reading, &Reading)| {
         let value = measured.value.ok()?;
         let unit = unit_of(measured.measure, value, channel);
-        let number = |reading: &Reading| match reading.value {
-            Ok(value) if is_zero(value, reading) => "0".to_owned(),
-            Ok(value) => unit.number(value, digits(value, Some(reading.error), MOST_DIGITS)),
-            Err(_) => "–".to_owned(),
+        let cells = |reading: &Reading| match reading.value {
+            Err(_) => ("–".to_owned(), String::new()),
+            Ok(value) if is_zero(value, reading) => {
+                let error =
+                    (reading.error != 0.0).then(|| format!("±{}", unit.number(reading.error, 1)));
+                ("0".to_owned(), error.unwrap_or_default())
+            }
+            Ok(value) => {
+                let (number, error) = shown(reading, value, &unit);
+                let is_exact = reading.error == 0.0 && reading.truth == Truth::Within;
+                (number, if is_exact { String::new() } else { error })
+            }
         };
-        let error = |reading: &Reading| match reading.value {
-            Ok(_) if reading.error == 0.0 => String::new(),
-            Ok(value) if is_zero(value, reading) => format!("±{}", unit.number(reading.error, 1)),
-            Ok(value) => format!("±{}", bound(reading.error / value.abs())),
-            Err(_) => String::new(),
-        };
+        let number = |reading: &Reading| cells(reading).0;
+        let error = |reading: &Reading| cells(reading).1;
         let word = measured.measure.word();
         let name = match &*unit.symbol {
             "" => word.to_owned(),
@@ -178,7 +183,8 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
         };
         let mut cells = vec![name, number(measured), error(measured)];
         if is_single {
-            let apart = model.value.ok().filter(|_| !is_zero(value, measured));
+            let is_told = !is_zero(value, measured) && measured.truth == Truth::Within;
+            let apart = model.value.ok().filter(|_| is_told);
             let apart = apart.map(|model| percent_signed((model - value) / value.abs()));
             cells.extend([number(model), error(model), apart.unwrap_or_default()]);
         } else {
@@ -217,11 +223,8 @@ struct ToldReading {
 struct ToldRating {
     overall: f64,
     grade: &'static str,
-    corridor: f64,
-    phase: f64,
-    magnitude: f64,
-    slope: f64,
-    later: f64,
+    #[serde(flatten)]
+    scores: Rating,
 }
 
 impl Told {
@@ -229,7 +232,9 @@ impl Told {
         let rating = numbers.map(|own| own.rating);
         let dimension = numbers.map_or(Dimension::NUMBER, |own| own.measured.channel.dimension());
         let one = |(measured, model): (&Reading, &Reading)| {
-            let both = measured.value.ok().zip(model.value.ok()).filter(|own| own.0 != 0.0);
+            let is_told = measured.truth == Truth::Within;
+            let both = measured.value.ok().zip(model.value.ok());
+            let both = both.filter(|own| own.0 != 0.0 && is_told);
             let told = ToldReading {
                 measured: ReadingObject::of(dimension, measured),
                 model: ReadingObject::of(dimension, model),
@@ -239,14 +244,10 @@ impl Told {
         };
         Self {
             measures: numbers.iter().flat_map(|own| own.readings()).map(one).collect(),
-            rating: rating.and_then(Result::ok).map(|own| ToldRating {
-                overall: own.overall(),
-                grade: own.grade().word(),
-                corridor: own.corridor,
-                phase: own.phase,
-                magnitude: own.magnitude,
-                slope: own.slope,
-                later: own.later,
+            rating: rating.and_then(Result::ok).map(|scores| ToldRating {
+                overall: scores.overall(),
+                grade: scores.grade(),
+                scores,
             }),
             unrated: rating.and_then(Result::err).map(Unrated::code),
         }

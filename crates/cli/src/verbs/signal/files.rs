@@ -83,7 +83,8 @@ pub(super) fn write(files: &mut Staged<'_>, signals: &Signals) -> Result<(), Cli
         };
         files.add_with(name, |out| csv(out, header, (0..times.len()).map(row)))?;
     }
-    let header = ["file", "measure", "value", "error", "unit", "on samples"].map(str::to_owned);
+    let header =
+        ["file", "measure", "value", "error", "unit", "on samples", "bound"].map(str::to_owned);
     files.add_with(MEASURES, |out| csv(out, header, signals.all.iter().flat_map(rows)))?;
     let figures: Vec<ReportFigure> =
         charts(signals).iter().map(ReportFigure::of).collect::<Result<_, _>>()?;
@@ -113,7 +114,8 @@ fn rows(own: &Signal) -> Vec<impl serde::Serialize + use<>> {
         let unit = si_unit(reading.measure.dimension(channel.dimension()));
         let key = format!("{}.{}", channel.name(), reading.measure.word());
         let value = reading.value.ok();
-        (own.file.clone(), key, value, value.map(|_| reading.error), unit, reading.on_samples)
+        let (bar, bound) = (reading.bar(), reading.truth.word());
+        (own.file.clone(), key, value, bar, unit, reading.on_samples, bound)
     };
     list(own.analysis.readings.iter().map(row))
 }

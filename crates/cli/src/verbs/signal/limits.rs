@@ -1,9 +1,9 @@
 //! Limits on what is read off channels.
 
-use dashpot_analysis::{Judgement, Limit, Reason};
+use dashpot_analysis::{Bound, Judgement, Limit, Reason};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits};
-use dashpot_signal::{Axis, Defect, Measure, Part, Reading};
+use dashpot_signal::{Analysis, Measure, Part, Reading, Reason as Open, Truth};
 
 use super::{Signal, Signals};
 use crate::error::CliError;
@@ -38,49 +38,61 @@ pub(super) struct Verdict<'s> {
     pub(super) limit: &'s SignalLimit,
     /// The channel; of several tests the first one.
     pub(super) signal: &'s Signal,
-    pub(super) measure: Measure,
     /// How many tests it is judged by.
     pub(super) tests: usize,
-    pub(super) value: Option<f64>,
-    pub(super) error: f64,
+    pub(super) known: Reading,
     pub(super) judgement: Judgement,
+    /// The resultant of more axes of its location, of a measure of bodies.
+    pub(super) resultant: Option<&'s Signal>,
+    /// What that says, where it contradicts that the rig lets nothing move along its further axes.
+    pub(super) contradiction: Option<Reading>,
 }
 
-impl<'s> Verdict<'s> {
-    /// That of the values and errors of some tests, by their mean. What does not hold all of the motion, or is clipped,
-    /// tells the least that a measure of the body is.
-    fn of(
-        limit: &'s SignalLimit,
-        tests: &[(&'s Signal, &'s Reading)],
-        guided: &[Axis],
-    ) -> Option<Self> {
-        let (signal, reading) = *tests.first()?;
-        let count = tests.len() as f64;
-        let values: Option<Vec<f64>> = tests.iter().map(|own| own.1.value.ok()).collect();
-        let value = values.map(|own| own.iter().sum::<f64>() / count);
-        let error = tests.iter().map(|own| own.1.error).sum::<f64>() / count;
-        let is_part = tests.iter().any(|(own, reading)| {
-            let own = &own.analysis;
-            reading.measure.is_of_body(own.channel.dimension()) && !own.part.covers(guided)
-        });
-        let is_clipped = |own: &Defect| matches!(own, Defect::Clipped { .. });
-        let is_clipped = tests.iter().any(|own| own.0.analysis.defects.iter().any(is_clipped));
-        let is_cut = tests.iter().any(|own| own.0.analysis.contact.is_cut);
-        let grows = is_part || is_clipped || is_cut;
-        let judgement = limit.limit.bound.judge(value.unwrap_or(f64::NAN), Some(error), grows);
-        let judgement = match judgement {
-            Judgement::Undecided(Reason::Cut) if is_part => Judgement::Undecided(Reason::OtherAxes),
-            Judgement::Undecided(Reason::Cut) if is_clipped => {
-                Judgement::Undecided(Reason::Clipped)
-            }
-            own => own,
-        };
-        let (measure, tests) = (reading.measure, tests.len());
-        Some(Self { limit, signal, measure, tests, value, error, judgement })
-    }
-
+impl Verdict<'_> {
     pub(super) fn passes(&self) -> bool {
         self.judgement == Judgement::Pass
+    }
+
+    /// What is left of the bound, in parts of it; `None` of what is only bounded.
+    pub(super) fn margin(&self) -> Option<f64> {
+        self.known.bar()?;
+        self.limit.limit.bound.margin(self.known.value.ok()?)
+    }
+}
+
+/// The mean of a measure over several tests.
+fn mean(all: &[&Reading]) -> Option<Reading> {
+    let count = all.len() as f64;
+    let values: Result<Vec<f64>, _> = all.iter().map(|own| own.value).collect();
+    let bounds = || all.iter().map(|own| own.truth).filter(|own| *own != Truth::Within);
+    let truth = bounds().next().unwrap_or_default();
+    let value = if bounds().all(|own| own == truth) {
+        values.map(|own| own.iter().sum::<f64>() / count)
+    } else {
+        Err(Open::Clipped)
+    };
+    let error = all.iter().map(|own| own.error).sum::<f64>() / count;
+    Some(Reading { value, truth, error, ..**all.first()? })
+}
+
+/// What a reading says of a bound; of a measure that may be larger by a `reason` what is sure all the same.
+fn judge(own: &Reading, bound: Bound, reason: Option<Reason>) -> Judgement {
+    let value = own.value.unwrap_or(f64::NAN);
+    let judgement = match (own.truth, bound) {
+        (Truth::AtMost, _) if reason.is_some() => Judgement::Undecided(Reason::Cut),
+        // A value that may be smaller is judged as its negative that may be larger.
+        (Truth::AtMost, Bound::Max(level)) => Bound::Min(-level).judge(-value, Some(0.0), true),
+        (Truth::AtMost, Bound::Min(level)) => Bound::Max(-level).judge(-value, Some(0.0), true),
+        (truth, _) => {
+            let grows = reason.is_some() || truth == Truth::AtLeast;
+            bound.judge(value, Some(own.error), grows)
+        }
+    };
+    match judgement {
+        Judgement::Undecided(Reason::Cut) => {
+            Judgement::Undecided(reason.unwrap_or(Reason::Clipped))
+        }
+        own => own,
     }
 }
 
@@ -93,14 +105,16 @@ pub(super) fn parse(text: &str) -> Result<Parsed, String> {
     let own = |limit: Limit| SignalLimit {
         channel: channel.to_owned(),
         word: word.to_owned(),
-        limit: Limit { key: format!("{channel}.{word}"), ..limit },
+        limit: Limit { key: key.trim().to_owned(), ..limit },
     };
     let mut fault = None;
     for word in same.unwrap_or(&[word]) {
         match parse_limits(&format!("{channel}.{word}{rest}")) {
             Ok(list) => return Ok(Parsed { list: list.into_iter().map(own).collect() }),
             Err(message) => {
-                fault.get_or_insert(message);
+                let bare = || parse_limits(&format!("{word}{rest}")).err();
+                let bare = if channel.is_empty() { bare() } else { None };
+                fault.get_or_insert(bare.unwrap_or(message));
             }
         }
     }
@@ -119,20 +133,10 @@ fn is_it(limit: &SignalLimit, measure: Measure, dimension: Dimension) -> bool {
     limit.word == measure.word() || measure == Measure::Peak && (limit.word == peak || is_force)
 }
 
-impl SignalLimit {
-    fn reading<'s>(&self, signal: &'s Signal) -> Option<&'s Reading> {
-        let channel = &signal.analysis.channel;
-        let mut all = signal.analysis.readings.iter();
-        let is_named = channel.name() == self.channel
-            || matches!(&signal.analysis.part, Part::Resultant { location, .. } if *location == self.channel);
-        all.find(|own| is_named && is_it(self, own.measure, channel.dimension()))
-    }
-}
-
 /// Refuses a limit on what no channel has.
 pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
     for limit in &signals.limits {
-        if signals.all.iter().any(|own| limit.reading(own).is_some()) {
+        if !signals.readings(limit).is_empty() {
             continue;
         }
         let keys = signals.all.iter().flat_map(|own| {
@@ -146,26 +150,96 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
         known.sort();
         known.dedup();
         let key = limit.limit.key.clone();
-        let meant = nearest(&key, known.iter().map(String::as_str)).map(str::to_owned);
+        let has_word = |own: &&String| own.rsplit_once('.').is_some_and(|own| own.1 == limit.word);
+        let meant = if limit.channel.is_empty() {
+            known.iter().find(has_word).cloned()
+        } else {
+            nearest(&key, known.iter().map(String::as_str)).map(str::to_owned)
+        };
         return Err(CliError::SignalLimit { key, known, meant });
     }
     Ok(())
 }
 
 impl Signals {
+    /// What channels say of the measure of a limit: those of its name, and of a location its resultant, or its only axis.
+    fn readings(&self, limit: &SignalLimit) -> Vec<(&Signal, &Reading)> {
+        let is_named = |own: &&Signal| {
+            own.analysis.channel.name() == limit.channel
+                || own.analysis.part.location() == Some(&*limit.channel)
+                    && self.fuller(own).is_none()
+        };
+        let reading = |own| Some((own, reading(own, limit)?));
+        self.all.iter().filter(is_named).filter_map(reading).collect()
+    }
+
+    /// The resultant of an axis, or of fewer axes of the same location.
+    fn fuller(&self, own: &Signal) -> Option<&Signal> {
+        let part = &own.analysis.part;
+        self.all.iter().find(|other| {
+            let is_resultant = matches!(other.analysis.part, Part::Resultant { .. });
+            let is_there =
+                other.file == own.file && other.analysis.part.location() == part.location();
+            let is_alike = other.analysis.channel.dimension() == own.analysis.channel.dimension();
+            is_resultant
+                && is_there
+                && is_alike
+                && other.analysis.part.axes().len() > part.axes().len()
+        })
+    }
+
     /// What is known of every limit: for each channel, or for the mean of all tests.
     pub(super) fn verdicts(&self) -> Vec<Verdict<'_>> {
         let mut verdicts = Vec::new();
         for limit in &self.limits {
-            let found = self.all.iter().filter_map(|own| Some((own, limit.reading(own)?)));
-            let found: Vec<(&Signal, &Reading)> = found.collect();
-            if limit.limit.of_mean {
-                verdicts.extend(Verdict::of(limit, &found, &self.guided));
-            } else {
-                let of_one = |own| Verdict::of(limit, &[own], &self.guided);
-                verdicts.extend(found.into_iter().filter_map(of_one));
-            }
+            let found = self.readings(limit);
+            let tests = if limit.limit.of_mean { found.len().max(1) } else { 1 };
+            verdicts.extend(found.chunks(tests).filter_map(|own| self.verdict(limit, own)));
         }
         verdicts
     }
+
+    /// That of some tests, by their mean. What does not hold all of the motion of a body tells the least that its measure is.
+    fn verdict<'s>(
+        &'s self,
+        limit: &'s SignalLimit,
+        tests: &[(&'s Signal, &'s Reading)],
+    ) -> Option<Verdict<'s>> {
+        let (signal, reading) = *tests.first()?;
+        let measure = reading.measure;
+        let is_of_body = measure.is_of_body(signal.analysis.channel.dimension());
+        let is_part = |own: &Analysis| !own.beside.is_empty() || !own.part.covers(&self.guided);
+        let is_part = is_of_body && tests.iter().any(|own| is_part(&own.0.analysis));
+        let is_cut = tests.iter().any(|own| own.0.analysis.contact.is_cut);
+        let reason = [(is_part, Reason::OtherAxes), (is_cut, Reason::Cut)];
+        let reason = reason.into_iter().find(|own| own.0).map(|own| own.1);
+        let bound = limit.limit.bound;
+        let known = mean(&tests.iter().map(|own| own.1).collect::<Vec<_>>())?;
+        let mut judgement = judge(&known, bound, reason);
+        // A rig that guides the body leaves other axes nothing that would change what is said.
+        let of_all = |own: &(&'s Signal, &'s Reading)| {
+            let all = self.fuller(own.0).and_then(|all| all.analysis.reading(measure));
+            all.unwrap_or(own.1)
+        };
+        let is_kept_by_less = match bound {
+            Bound::Max(_) => judgement == Judgement::Pass,
+            Bound::Min(_) => judgement == Judgement::Fail,
+        };
+        let resultant = self.fuller(signal).filter(|_| is_of_body);
+        let contradiction = resultant.filter(|_| is_kept_by_less).and_then(|_| {
+            let known = mean(&tests.iter().map(of_all).collect::<Vec<_>>())?;
+            (judge(&known, bound, reason) != judgement).then_some(known)
+        });
+        if contradiction.is_some() {
+            judgement = Judgement::Undecided(Reason::OtherAxes);
+        }
+        let tests = tests.len();
+        Some(Verdict { limit, signal, tests, known, judgement, resultant, contradiction })
+    }
+}
+
+/// The reading of a channel that a limit is on.
+fn reading<'s>(signal: &'s Signal, limit: &SignalLimit) -> Option<&'s Reading> {
+    let dimension = signal.analysis.channel.dimension();
+    signal.analysis.readings.iter().find(|own| is_it(limit, own.measure, dimension))
 }

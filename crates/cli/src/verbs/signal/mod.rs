@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use self::{
     limits::{SignalLimit, Verdict},
-    read::{Record, Wanted},
+    read::{MeasuredChannel, Record},
 };
 use crate::{
     args::{frequency_class, paddings, shift},
@@ -47,14 +47,15 @@ pub(crate) struct SignalArguments {
     /// Tables with columns of time and of what was measured; or tests in ISO-MME: an `.mme` file, its folder, or a zip of it.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// A channel by the name or the number of its column [default: all accelerations and forces]; repeatable.
-    #[arg(long, value_name = "NAME")]
+    /// A channel by the name or the number of its column [default: all accelerations and forces]; repeatable. `acc1=Head X`
+    /// says what it is: an axis of a location, or, as `acc1=Head`, all that moves there.
+    #[arg(long, value_name = "NAME[=WHAT]")]
     channel: Vec<String>,
     /// Units of the columns where the file says none, in their order: "s, g".
     #[arg(long, value_name = "UNIT,…", value_delimiter = ',')]
     units: Vec<String>,
     /// Sampling rate: of a file without times; or at which the line between its samples is read.
-    #[arg(long, value_name = "FREQUENCY", value_parser = frequency)]
+    #[arg(long, value_name = "FREQUENCY", value_parser = |text: &str| positive("rate", text, Dimension::FREQUENCY))]
     rate: Option<f64>,
     /// What is taken off: `auto`, the reading at rest before the pulse, or a value such as "0.3 g".
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
@@ -77,15 +78,15 @@ pub(crate) struct SignalArguments {
     /// Speed of approach of the body that an accelerometer is on when its contact begins: gives its displacement, its
     /// rebound and the coefficient of restitution. Before, it flies freely. A force needs `--mass` as well: that of a free
     /// striker.
-    #[arg(long, value_name = "SPEED", value_parser = speed)]
+    #[arg(long, value_name = "SPEED", value_parser = |text: &str| positive("velocity", text, Dimension::VELOCITY))]
     velocity: Option<f64>,
     /// Its mass: gives energy taken, returned and absorbed.
-    #[arg(long, value_name = "MASS", value_parser = mass, requires = "velocity")]
+    #[arg(long, value_name = "MASS", value_parser = |text: &str| positive("mass", text, Dimension::MASS), requires = "velocity")]
     mass: Option<f64>,
     /// When its contact begins [default: where the record leaves what it reads at rest].
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, requires = "velocity", value_parser = shift)]
     touch: Option<f64>,
-    /// It falls: its weight acts along the blow.
+    /// It falls: its weight acts along the impact.
     #[arg(long, requires = "velocity")]
     falls: bool,
     /// The rig guides the body along this axis, or in the plane of two, as in `xz`: what those axes say is then all of its
@@ -123,22 +124,9 @@ fn axes(text: &str) -> Result<Guided, String> {
         .ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
 }
 
-fn frequency(text: &str) -> Result<f64, String> {
-    let found = argument("rate", text, Dimension::FREQUENCY)?;
-    if found > 0.0 { Ok(found) } else { Err("a rate is positive, such as \"20 kHz\"".to_owned()) }
-}
-
 fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let found = argument(name, text, dimension)?;
-    if found > 0.0 { Ok(found) } else { Err("it must be positive".to_owned()) }
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    positive("velocity", text, Dimension::VELOCITY)
-}
-
-fn mass(text: &str) -> Result<f64, String> {
-    positive("mass", text, Dimension::MASS)
+    let value = argument(name, text, dimension)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
 }
 
 /// A channel of a file as it was read.
@@ -158,17 +146,6 @@ struct Signals {
     notes: Vec<String>,
 }
 
-impl<'a> From<&'a SignalArguments> for Wanted<'a> {
-    fn from(own: &'a SignalArguments) -> Self {
-        Self {
-            channels: &own.channel,
-            units: &own.units,
-            rate: own.rate,
-            displacement: own.displacement.as_deref(),
-        }
-    }
-}
-
 impl SignalArguments {
     /// Refuses what says something of a channel that the record does not have.
     fn apply_to(&self, record: &Record) -> Result<(), CliError> {
@@ -176,21 +153,20 @@ impl SignalArguments {
             let reason = format!("`{}`: {reason}", record.file);
             Err(CliError::WrongSetting { name: name.to_owned(), reason })
         };
-        let is_of = |of: Dimension| record.channels.iter().any(|own| own.dimension() == of);
+        let is_of = |of: Dimension| record.channels.iter().any(|own| own.channel.dimension() == of);
         if self.displacement.is_some() && !is_of(Dimension::FORCE) {
             return wrong(
                 "--displacement",
                 "no channel that is read is a force, which alone does work over one".to_owned(),
             );
         }
-        let mut all = 0..record.channels.len();
-        if self.velocity.is_none() || all.any(|at| self.moves(record, at)) {
+        if self.velocity.is_none() || record.channels.iter().any(|own| self.moves(record, own)) {
             return Ok(());
         }
         let reason = if is_of(Dimension::ACCELERATION) {
-            let names: Vec<&str> = record.channels.iter().map(Channel::name).collect();
+            let names: Vec<&str> = record.channels.iter().map(|own| own.channel.name()).collect();
             format!(
-                "it has one direction, and {} are axes of one body: `--guided z` says which of them is along the blow, or \
+                "it has one direction, and {} are axes of one body: `--guided z` says which of them is along the impact, or \
                  `--channel` names it",
                 names.join(", ")
             )
@@ -205,20 +181,17 @@ impl SignalArguments {
 
     /// Whether a channel tells the motion of a body that comes with `--velocity`: an acceleration, or a force on a known
     /// mass; of several axes of one location the one along which the body is guided.
-    fn moves(&self, record: &Record, at: usize) -> bool {
-        let is_guided = |place: &Place| {
-            let is_other = |own: &Place| own.is_beside(place) && own.axis != place.axis;
-            match &self.guided {
-                Some(guided) => guided.0 == [place.axis],
-                None => !record.places.iter().flatten().any(is_other),
-            }
+    fn moves(&self, record: &Record, own: &MeasuredChannel) -> bool {
+        let is_along = |place: &Place| {
+            let places = record.channels.iter().filter_map(|other| other.place.as_ref());
+            let is_alone = places.filter(|other| other.is_beside(place)).all(|own| own == place);
+            self.guided.as_ref().map_or(is_alone, |guided| guided.0 == [place.axis])
         };
-        let along = record.places[at].as_ref().is_none_or(is_guided);
-        along
-            && match record.channels[at].dimension() {
-                Dimension::FORCE => self.mass.is_some(),
-                dimension => dimension == Dimension::ACCELERATION,
-            }
+        let has_mass = match own.channel.dimension() {
+            Dimension::FORCE => self.mass.is_some(),
+            dimension => dimension == Dimension::ACCELERATION,
+        };
+        has_mass && own.place.as_ref().is_none_or(is_along)
     }
 
     fn removal(&self, dimension: Dimension) -> Result<Removal, CliError> {
@@ -264,7 +237,7 @@ pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<
         if bar.count(at, arguments.files.len()).is_break() {
             return Err(CliError::Ended);
         }
-        let record = read::read(path, &arguments.into())?;
+        let record = read::read(path, arguments)?;
         notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
         all.extend(signals(arguments, &record, &stem)?);
     }
@@ -298,12 +271,14 @@ fn signals(
     let still = Settings { approach: None, ..settings };
     let displacement = record.displacement.as_ref().map(|own| analyse(still, own)).transpose()?;
     let mut all = Vec::new();
-    for (at, (channel, place)) in record.channels.iter().zip(&record.places).enumerate() {
-        let approach = settings.approach.filter(|_| arguments.moves(record, at));
+    for own in &record.channels {
+        let channel = &own.channel;
+        let approach = settings.approach.filter(|_| arguments.moves(record, own));
         let offset = arguments.removal(channel.dimension())?;
-        let rest = record.rest_beside(at);
+        let rest = record.rest_beside(own);
         let mut analysis = analyse(Settings { approach, offset, rest, ..settings }, channel)?;
-        analysis.part = place.clone().map_or(Part::Whole, Part::Axis);
+        analysis.part = own.place.clone().map_or(Part::Whole, Part::Axis);
+        analysis.beside.clone_from(&own.beside);
         if let Some(displacement) =
             displacement.as_ref().filter(|_| channel.dimension() == Dimension::FORCE)
         {

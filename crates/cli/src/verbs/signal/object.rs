@@ -5,7 +5,7 @@ use dashpot_signal::{Axis, Cfc, Part, Reading, Reason, Removal, Repeated};
 use dashpot_units::{Dimension, si_unit};
 use serde::Serialize;
 
-use super::{Group, Signal, Signals, limits::Verdict};
+use super::{Group, Signal, Signals, limits::Verdict, words::polarity};
 use crate::output::{Pairs, VERSION, list, object};
 
 pub(super) fn of(signals: &Signals) -> impl Serialize {
@@ -35,6 +35,7 @@ fn channel(signal: &Signal) -> impl Serialize {
         file: &signal.file,
         name,
         axes: list(own.part.axes().into_iter().map(Axis::letter)),
+        beside: own.beside.clone(),
         resultant_of: match &own.part {
             Part::Resultant { of, .. } => list(of.iter().map(|own| own.1.clone())),
             _ => Vec::new(),
@@ -43,7 +44,7 @@ fn channel(signal: &Signal) -> impl Serialize {
         samples: own.channel.times().len(),
         rate: own.rate(),
         span: own.channel.span(),
-        polarity: own.polarity.word(),
+        polarity: polarity(&own.channel),
         inverted: settings.is_inverted,
         cfc: settings.cfc.map(Cfc::class),
         filter: settings.cfc.map(|cfc| object! {
@@ -53,19 +54,8 @@ fn channel(signal: &Signal) -> impl Serialize {
             gain_at_class: cfc.gain(cfc.class(), own.rate()),
             gain_at_design_frequency: cfc.gain(cfc.design_frequency(), own.rate()),
         }),
-        offset: own.offset.map(|offset| object! {
-            value: offset.value,
-            error: offset.error,
-            window: offset.window,
-            samples: offset.samples,
-            noise: offset.noise,
-            drift: offset.drift,
-        }),
-        noise: object! {
-            deviation: own.doubt.noise.deviation,
-            intensity: own.doubt.noise.intensity,
-            at_rest: own.doubt.noise.is_of_rest,
-        },
+        offset: own.offset,
+        noise: own.uncertainty.noise,
         removed: own.removed,
         removal: match settings.offset {
             Removal::Nothing => "nothing",
@@ -88,6 +78,8 @@ pub(in crate::verbs) struct ReadingObject {
     time: Option<f64>,
     window: Option<(f64, f64)>,
     error: Option<f64>,
+    /// `at-least` or `at-most` of a value that is a bound, and has no error.
+    bound: Option<&'static str>,
     on_samples: Option<f64>,
     note_code: Option<&'static str>,
 }
@@ -100,7 +92,8 @@ impl ReadingObject {
             unit: si_unit(reading.measure.dimension(channel)),
             time: reading.time,
             window: reading.window,
-            error: reading.value.ok().map(|_| reading.error),
+            error: reading.bar(),
+            bound: reading.truth.word(),
             on_samples: reading.on_samples,
             note_code: reading.value.err().map(Reason::code),
         }
@@ -132,7 +125,7 @@ fn repeats(group: &Group<'_>) -> impl Serialize + use<> {
 fn verdict(own: Verdict<'_>) -> impl Serialize {
     let limit = &own.limit.limit;
     let bound = limit.bound;
-    let dimension = own.measure.dimension(own.signal.analysis.channel.dimension());
+    let dimension = own.known.measure.dimension(own.signal.analysis.channel.dimension());
     object! {
         file: (own.tests == 1).then(|| own.signal.file.clone()),
         key: limit.key.clone(),
@@ -142,10 +135,11 @@ fn verdict(own: Verdict<'_>) -> impl Serialize {
         of_mean: limit.of_mean,
         tests: own.tests,
         unit: si_unit(dimension),
-        value: own.value,
-        error: own.value.map(|_| own.error),
+        value: own.known.value.ok(),
+        error: own.known.bar(),
+        bound: own.known.truth.word(),
         verdict: own.judgement.word(),
         reason: own.judgement.reason().map(dashpot_analysis::Reason::word),
-        margin: own.value.and_then(|value| bound.margin(value)),
+        margin: own.margin(),
     }
 }

@@ -3,13 +3,15 @@
 use dashpot_analysis::{Bound, Judgement, Reason, measures::STANDARD_GRAVITY};
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::Table;
-use dashpot_signal::{Analysis, Axis, CONTACT_LEVEL, Measure, Part, Reading, Repeated};
+use dashpot_signal::{
+    Analysis, Axis, CONTACT_LEVEL, Channel, Measure, Part, Reading, Repeated, Truth,
+};
 use dashpot_units::si_unit;
 
 use super::{Group, Signal, Signals, limits::Verdict};
 use crate::{
     numbers::{MOST_DIGITS, Unit, bound, digits, percent_signed, quantity, share, significant},
-    output::Text,
+    output::{Text, list},
 };
 
 /// Digits of times and rates.
@@ -102,6 +104,11 @@ pub(super) fn heading(own: &Signal) -> String {
     )
 }
 
+/// Which way the peak of a channel points.
+pub(super) fn polarity(channel: &Channel) -> &'static str {
+    if channel.sign() < 0.0 { "negative" } else { "positive" }
+}
+
 /// What was done with a channel.
 pub(super) fn treatment(own: &Analysis) -> Vec<String> {
     let contact = format!("contact is where it exceeds {} of its peak", share(CONTACT_LEVEL));
@@ -148,8 +155,8 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
         }
     };
     let turned = if own.settings.is_inverted { ", after its signs were turned" } else { "" };
-    let polarity = format!("its peak is {}{turned}", own.polarity.word());
-    let noise = own.doubt.noise;
+    let polarity = format!("its peak is {}{turned}", polarity(&own.channel));
+    let noise = own.uncertainty.noise;
     let from = if noise.is_of_rest { "at rest" } else { "of its fourth differences" };
     let deviation = value(noise.deviation, 2);
     let noise = (noise.deviation > UNSEEN * own.channel.largest().1)
@@ -162,31 +169,36 @@ pub(super) fn table(own: &Analysis) -> Table {
     let dimension = own.channel.dimension();
     let row = |reading: &Reading| {
         let word = reading.measure.word().to_owned();
-        let Ok(value) = reading.value else {
-            return vec![
-                word,
-                "–".to_owned(),
-                String::new(),
-                String::new(),
-                String::new(),
-                "the record is too short".to_owned(),
-            ];
+        let value = match reading.value {
+            Ok(value) => value,
+            Err(reason) => {
+                let [one, two, three] = [const { String::new() }; 3];
+                return vec![word, "–".to_owned(), one, two, three, reason.to_string()];
+            }
         };
         let unit = unit_of(reading.measure, value, dimension);
-        let relative = if value == 0.0 { 0.0 } else { reading.error / value.abs() };
-        let shown = |own: f64| unit.number(own, digits(value, Some(reading.error), MOST_DIGITS));
-        let on_samples = reading.on_samples.map_or(String::new(), shown);
-        vec![
-            word,
-            shown(value),
-            format!("±{}", bound(relative)),
-            unit.symbol.clone(),
-            on_samples,
-            when(reading),
-        ]
+        let (shown, error) = shown(reading, value, &unit);
+        let digits = digits(value, Some(reading.error), MOST_DIGITS);
+        let on_samples = reading.on_samples.map_or(String::new(), |own| unit.number(own, digits));
+        vec![word, shown, error, unit.symbol.clone(), on_samples, when(reading)]
     };
     let header = ["measure", "value", "error", "unit", "samples", "when"];
     Table::new("", &header, own.readings.iter().map(row))
+}
+
+/// Value and error of a reading in a unit, or a bound and its word.
+pub(in crate::verbs) fn shown(reading: &Reading, value: f64, unit: &Unit) -> (String, String) {
+    match reading.truth.word() {
+        None => {
+            let relative = if value == 0.0 { 0.0 } else { reading.error / value.abs() };
+            let shown = unit.number(value, digits(value, Some(reading.error), MOST_DIGITS));
+            (shown, format!("±{}", bound(relative)))
+        }
+        Some(word) => {
+            let value = cautious(value, reading.truth, unit);
+            (unit.number(value, DIGITS), word.replace('-', " "))
+        }
+    }
 }
 
 fn when(reading: &Reading) -> String {
@@ -201,16 +213,56 @@ fn when(reading: &Reading) -> String {
 }
 
 /// Why a limit is not decided, and what decides it.
-fn undecided(own: &Verdict<'_>, reason: Reason) -> String {
-    let axes: String = own.signal.analysis.part.axes().into_iter().map(Axis::letter).collect();
+fn undecided(own: &Verdict<'_>, reason: Reason, found: impl Fn(&Reading) -> String) -> String {
     match reason {
-        Reason::OtherAxes => format!(
-            "; {axes} alone is measured, and the limit is one on the resultant of x, y and z; `--guided {axes}` where the \
-             rig lets the body move along no other"
+        Reason::OtherAxes => other_axes(own, found),
+        Reason::Clipped => "the record is clipped".to_owned(),
+        Reason::Cut => "the record begins or ends within the pulse".to_owned(),
+        Reason::NoValue => own.known.value.err().map_or(String::new(), |own| own.to_string()),
+        _ => "the limit is within the error".to_owned(),
+    }
+}
+
+/// Which axes are not judged.
+fn other_axes(own: &Verdict<'_>, found: impl Fn(&Reading) -> String) -> String {
+    let analysis = &own.signal.analysis;
+    let name = analysis.channel.name();
+    let axes = analysis.part.axes();
+    let joined =
+        |axes: &[Axis]| list(axes.iter().map(|own| own.letter().to_string())).join(" and ");
+    let are = |count: usize| if count == 1 { "is" } else { "are" };
+    let beside = list(analysis.beside.iter().map(|own| format!("`{own}`")));
+    let (others, count) = (beside.join(", "), beside.len());
+    if let Some(resultant) = own.resultant {
+        let further = resultant.analysis.part.axes().into_iter().filter(|own| !axes.contains(own));
+        let (one, further) = (joined(&axes), joined(&further.collect::<Vec<_>>()));
+        return match own.contradiction.as_ref().map(found) {
+            Some(known) => {
+                format!("guided along {one} by declaration, but with {further} it is {known}")
+            }
+            None => format!(
+                "it is that of {one} alone, and the limit is one on the resultant: with {further} it is that of `{}`",
+                resultant.analysis.channel.name()
+            ),
+        };
+    }
+    match (&axes[..], count) {
+        ([], _) => format!(
+            "{others} may be of the same body, on whose resultant the limit is: `--channel \"{name}=Head X\"` says which \
+             axis of what each is, `--channel \"{name}=Head\"` that one holds all of its motion"
         ),
-        Reason::Clipped => "; the record is clipped, and its peak was higher".to_owned(),
-        Reason::Cut => "; the record begins or ends within the pulse".to_owned(),
-        _ => String::new(),
+        (_, 0) => format!(
+            "{} alone {} measured, and the limit is one on the resultant of x, y and z; `--guided {}` where the rig lets the \
+             body move along no other",
+            joined(&axes),
+            are(axes.len()),
+            axes.iter().map(|own| own.letter()).collect::<String>()
+        ),
+        _ => format!(
+            "{others} of the file may be of the same body and {} no part of this, and the limit is one on the resultant of \
+             all",
+            are(count)
+        ),
     }
 }
 
@@ -223,28 +275,44 @@ pub(super) fn judged(own: &Verdict<'_>) -> (&'static str, String) {
     };
     let limit = &own.limit.limit;
     let level = limit.bound.level();
-    let unit = unit_of(own.measure, level, own.signal.analysis.channel.dimension());
-    let found = match own.value {
-        Some(value) => {
-            let shown = digits(value, Some(own.error), MOST_DIGITS);
-            format!("{} ± {}", unit.text(value, shown), unit.text(own.error, ERROR_DIGITS))
+    let unit = unit_of(own.known.measure, level, own.signal.analysis.channel.dimension());
+    let found = |known: &Reading| match (known.value, known.truth) {
+        (Err(_), _) => "is not determined".to_owned(),
+        (Ok(value), Truth::Within) => {
+            let shown = digits(value, Some(known.error), MOST_DIGITS);
+            format!("{} ± {}", unit.text(value, shown), unit.text(known.error, ERROR_DIGITS))
         }
-        None => "is not determined".to_owned(),
+        (Ok(value), truth) => {
+            let sign = if truth == Truth::AtLeast { "≥" } else { "≤" };
+            format!("{sign} {}", unit.text(cautious(value, truth, &unit), DIGITS))
+        }
     };
     let word = match limit.bound {
         Bound::Max(_) => "at most",
         Bound::Min(_) => "at least",
     };
     let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
-    let margin = own.value.and_then(|value| limit.bound.margin(value));
-    let margin = margin.map_or(String::new(), |own| format!("; margin {}", percent_signed(own)));
+    let margin =
+        own.margin().map_or(String::new(), |own| format!("; margin {}", percent_signed(own)));
     let mean = match (limit.of_mean, own.tests) {
         (false, _) => String::new(),
         (true, 1) => "; one test stands for the mean".to_owned(),
         (true, tests) => format!("; the mean of {tests} tests"),
     };
     let level = unit.text(level, DIGITS);
-    let why = own.judgement.reason().map_or(String::new(), |reason| undecided(own, reason));
-    let text = format!("{} {found}, {word} {level}{from}{margin}{mean}{why}", limit.key);
-    (label, text)
+    let why = own.judgement.reason().map(|reason| format!("; {}", undecided(own, reason, found)));
+    let (found, why) = (found(&own.known), why.unwrap_or_default());
+    (label, format!("{} {found}, {word} {level}{from}{margin}{mean}{why}", limit.key))
+}
+
+/// A bound in digits that say no more than it does: rounded to the side on which the truth is not.
+pub(in crate::verbs) fn cautious(bound: f64, truth: Truth, unit: &Unit) -> f64 {
+    let shown = unit.of(bound);
+    let step = 10_f64.powf(shown.abs().log10().floor() + 1.0 - DIGITS as f64);
+    let rounded = match truth {
+        Truth::Within => return bound,
+        Truth::AtLeast => (shown / step).floor(),
+        Truth::AtMost => (shown / step).ceil(),
+    };
+    if shown == 0.0 { bound } else { bound * (rounded * step / shown) }
 }

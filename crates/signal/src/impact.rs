@@ -1,15 +1,15 @@
-//! When a blow begins and ends.
+//! When an impact begins and ends.
 
-use crate::{Channel, Contact, Doubt};
+use crate::{Channel, Contact, Uncertainty};
 
 /// Noise is below so many standard deviations where nothing has begun.
 const QUIET: f64 = 3.0;
 /// Rounding of values, in parts of the peak.
 const ROUNDING: f64 = 1e-12;
 
-/// A blow: from the touch, before which nothing acts, to where the channel first comes back to what it reads at rest.
+/// An impact: from the touch, before which nothing acts, to where the channel first comes back to what it reads at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blow {
+pub struct Impact {
     /// When it begins \[s\].
     pub touch: f64,
     /// How far that may be off \[s\].
@@ -20,7 +20,7 @@ pub struct Blow {
     pub end: usize,
 }
 
-impl Blow {
+impl Impact {
     /// That of a channel, which begins at a time that is stated \[s\], or as the record tells.
     ///
     /// It begins behind the last sample before the contact that noise and resolution explain, where the line through the
@@ -29,13 +29,13 @@ impl Blow {
     pub(crate) fn of(
         channel: &Channel,
         contact: Contact,
-        doubt: &Doubt,
+        uncertainty: &Uncertainty,
         stated: Option<f64>,
     ) -> Self {
         let (times, values) = (channel.times(), channel.values());
-        let (sign, last) = (channel.polarity().sign(), values.len() - 1);
-        let value = |at: usize| sign * (values[at] - doubt.rest);
-        let zero = (doubt.floor - doubt.rest.abs()).max(ROUNDING * channel.largest().1);
+        let (sign, last) = (channel.sign(), values.len() - 1);
+        let value = |at: usize| sign * (values[at] - uncertainty.rest);
+        let zero = (uncertainty.floor - uncertainty.rest.abs()).max(ROUNDING * channel.largest().1);
         let first = times.partition_point(|time| *time < contact.window.0).min(last);
         let behind = times.partition_point(|time| *time < contact.window.1).min(last);
         let end = (behind..=last).find(|at| value(*at) <= zero).unwrap_or(last);
@@ -45,7 +45,7 @@ impl Blow {
         }
         // What is never at rest before is taken from where it is least.
         let least = (0..first).map(value).fold(f64::INFINITY, f64::min);
-        let noise = QUIET * doubt.noise.deviation;
+        let noise = QUIET * uncertainty.noise.deviation;
         let quiet = zero.max(noise).max(least);
         let Some(begin) = (0..first).rev().find(|at| value(*at) <= quiet) else {
             return Self { touch: times[0], error: 0.0, begin: 0, end };
