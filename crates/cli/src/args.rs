@@ -43,7 +43,6 @@ pub(crate) struct ValueArguments {
     pub(crate) set: Vec<(String, String)>,
 }
 
-/// Values of one design.
 #[derive(Debug, Clone)]
 pub(crate) struct Variant {
     pub(crate) name: String,
@@ -119,10 +118,7 @@ pub(crate) fn refuse(options: &[&str], why: &str) -> Result<(), CliError> {
     };
     match options.iter().find(is_given) {
         None => Ok(()),
-        Some(name) => Err(CliError::WrongSetting {
-            name: (*name).to_owned(),
-            reason: format!("it does nothing here: {why}"),
-        }),
+        Some(name) => Err(CliError::setting(name, format!("it does nothing here: {why}"))),
     }
 }
 

@@ -53,7 +53,6 @@ pub(crate) fn notice_interrupts() {
     IS_NOTICED.store(!host::is_called(), Ordering::Relaxed);
 }
 
-/// Whether there was one.
 pub(crate) fn is_interrupted() -> bool {
     IS_ASKED.load(Ordering::Relaxed)
 }

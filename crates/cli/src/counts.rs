@@ -26,17 +26,11 @@ pub(crate) const DESIGNS: Count = Count::new(1, 100_000);
 pub(crate) const DESIGNS_OF_CHOICES: Count = Count::new(1, 1_000_000);
 /// Choices of words and steps, each of which is searched.
 pub(crate) const CHOICES: Count = Count::new(1, 1000);
-/// Points of a front.
 pub(crate) const FRONT_POINTS: Count = Count::new(2, 1000);
-/// Starts of a fit.
 pub(crate) const STARTS: Count = Count::new(1, 1000);
-/// Cushion curves.
 pub(crate) const CURVES: Count = Count::new(1, 200);
-/// Points of each curve.
 pub(crate) const CURVE_POINTS: Count = Count::new(1, 10_000);
-/// Shards of a sweep.
 pub(crate) const SHARDS: Count = Count::new(1, 1_000_000);
-/// Threads that share work.
 pub(crate) const THREADS: Count = Count::new(1, 1024);
 /// Combinations of values of one test of the rheometer; more are no table.
 pub(crate) const VARIANTS: Count = Count::new(1, 24);
@@ -46,7 +40,6 @@ impl Count {
         Self { least, most }
     }
 
-    /// The largest number.
     pub(crate) const fn most(self) -> usize {
         self.most
     }

@@ -207,7 +207,6 @@ pub(crate) fn arguments() -> Vec<OsString> {
     own.unwrap_or_else(|| env::args_os().skip(1).collect())
 }
 
-/// Whether a program calls.
 pub(crate) fn is_called() -> bool {
     HOSTED.with_borrow(Option::is_some)
 }

@@ -99,7 +99,7 @@ pub(crate) fn title(scene: &Scene) -> &str {
 /// The value of a setting of this name, in SI units. A bare number may be meant in others, and is none but zero; that of
 /// a program that calls is in SI units.
 pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, CliError> {
-    let wrong = |reason: String| CliError::WrongSetting { name: name.to_owned(), reason };
+    let wrong = |reason: String| CliError::setting(name, reason);
     let unlike = |fault: Fault| CliError::quantity(name, fault);
     let found = parse_quantity(text);
     let found =

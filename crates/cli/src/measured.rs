@@ -19,7 +19,6 @@ pub(crate) struct MeasuredFile {
 }
 
 impl MeasuredFile {
-    /// Reads a file.
     pub(crate) fn read(flag: &'static str, name: &str) -> Result<Self, CliError> {
         let bytes = bytes_of(Path::new(name)).map_err(|error| CliError::MeasuredColumn {
             flag,
@@ -29,7 +28,6 @@ impl MeasuredFile {
         Ok(Self { flag, name: name.to_owned(), text: table_text(&bytes).into_owned() })
     }
 
-    /// Its table.
     pub(crate) fn table(&self) -> Result<DataTable<'_>, CliError> {
         DataTable::read(&self.text).map_err(|fault| self.fault(fault))
     }

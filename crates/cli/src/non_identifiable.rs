@@ -13,7 +13,6 @@ use crate::numbers::quantity;
 const MOST_PARTS: usize = 300;
 /// More parameters of one group are only counted.
 const MOST_LISTED: usize = 8;
-/// Digits of constants.
 const DIGITS: usize = 6;
 
 /// Groups of parameters of a model that cannot all be told apart from outside.

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::{
     input::load,
-    output::{VERSION, list},
+    output::{VERSION, list, object},
 };
 
 /// A text or file with its SHA-256, as `sha256sum` prints it.
@@ -16,6 +16,12 @@ use crate::{
 pub(crate) struct Source {
     pub(crate) file: String,
     pub(crate) sha256: String,
+}
+
+/// What a result is of: its first keys.
+pub(crate) fn head(scene: &Scene) -> impl Serialize {
+    let (title, file, files) = (&scene.title, &scene.file, of_files(scene));
+    object! { dashpot: VERSION, title, file, sha256: of_text(scene), files }
 }
 
 /// The SHA-256 of the scene's text, with what the command line sets by its path.

@@ -17,7 +17,6 @@ use crate::{host, numbers::duration, terminal::note};
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Without a terminal a line is written after so long, and then whenever the time has doubled.
 const FIRST: Duration = Duration::from_secs(10);
-/// Steps of the bar.
 const PARTS: u64 = 1000;
 
 /// Shows on standard error how far some work has come.

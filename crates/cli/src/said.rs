@@ -24,7 +24,6 @@ pub(crate) fn notes(scene: &Scene) -> Vec<String> {
     list(scene.notes.iter().map(|ModelNote { subject, what, .. }| format!("{subject}: {what}")))
 }
 
-/// The warnings as objects.
 pub(crate) fn warning_objects(scene: &Scene) -> Vec<impl Serialize> {
     list(scene.warnings.iter().map(|own| {
         object! {
@@ -36,7 +35,6 @@ pub(crate) fn warning_objects(scene: &Scene) -> Vec<impl Serialize> {
     }))
 }
 
-/// The notes as objects.
 pub(crate) fn note_objects(scene: &Scene) -> Vec<impl Serialize> {
     list(scene.notes.iter().map(|own| {
         object! { of: &own.subject, code: own.what.code(), text: own.what.to_string() }

@@ -63,8 +63,7 @@ impl Verb {
             let text = fault.to_string();
             let reason =
                 text.trim_start_matches("error: ").split("\n\n").next().unwrap_or_default();
-            let name = format!("[{}] of {file}", self.name);
-            CliError::WrongSetting { name, reason: reason.to_owned() }
+            CliError::setting(&format!("[{}] of {file}", self.name), reason)
         })
     }
 
@@ -76,9 +75,8 @@ impl Verb {
         given: &[OsString],
         file: &str,
     ) -> Result<Vec<OsString>, CliError> {
-        let wrong = |reason: String| CliError::WrongSetting {
-            name: format!("{file}, line {}, {}", wish.line, wish.key),
-            reason,
+        let wrong = |reason: String| {
+            CliError::setting(&format!("{file}, line {}, {}", wish.line, wish.key), reason)
         };
         let known = command.get_arguments().filter_map(|own| Some((own.get_long()?, own)));
         let known =

@@ -17,9 +17,7 @@ pub(crate) const WIDTH: usize = 80;
 /// Where text goes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Terminal {
-    /// Standard output.
     pub(crate) output: Stream,
-    /// Standard error.
     pub(crate) error: Stream,
     /// Whether both are read at one place: on a terminal, or because one is sent to the other.
     pub(crate) is_one: bool,
@@ -64,7 +62,6 @@ impl Terminal {
         if self.output.colored { marked(tone, text) } else { text.to_owned() }
     }
 
-    /// Warns on standard error.
     pub(crate) fn warn(self, text: &str) {
         if !host::said(host::Tone::Warning, text, None) {
             self.labelled("warning", Tone::Warning, text);

@@ -20,7 +20,6 @@ pub(crate) struct Varied {
     pub(crate) unit: String,
     /// What one of that is in SI units.
     pub(crate) one: f64,
-    /// Its SI unit.
     pub(crate) si: String,
     /// Between which values, in SI units.
     pub(crate) bounds: [f64; 2],

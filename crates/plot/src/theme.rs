@@ -66,49 +66,39 @@ pub(crate) const MARKER_RADIUS: f64 = 4.5;
 pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
 
 impl Colour {
+    /// From `0xRR_GG_BB`.
+    const fn of(hex: u32) -> Self {
+        let [_, red, green, blue] = hex.to_be_bytes();
+        Self(red, green, blue)
+    }
+
     /// The spelling in SVG and CSS, `#RRGGBB`, as the back-end writes it too.
     pub(crate) fn hex(self) -> String {
         format!("#{:02X}{:02X}{:02X}", self.0, self.1, self.2)
     }
 
-    /// The back-end's type.
     pub(crate) fn rgb(self) -> RGBColor {
         RGBColor(self.0, self.1, self.2)
     }
 }
 
 /// Lines and text.
-pub(crate) const INK: Colour = Colour(0x1F, 0x29, 0x33);
+pub(crate) const INK: Colour = Colour::of(0x1F_29_33);
 /// Text of second rank and reference lines.
-pub(crate) const FAINT: Colour = Colour(0x5B, 0x67, 0x70);
-/// Grid lines.
-pub(crate) const GRID: Colour = Colour(0xDF, 0xE4, 0xE8);
-/// Background.
-pub(crate) const PAPER: Colour = Colour(0xFF, 0xFF, 0xFE);
+pub(crate) const FAINT: Colour = Colour::of(0x5B_67_70);
+pub(crate) const GRID: Colour = Colour::of(0xDF_E4_E8);
+pub(crate) const PAPER: Colour = Colour::of(0xFF_FF_FE);
 /// Filling of masses.
-pub(crate) const FILL: Colour = Colour(0xE9, 0xEE, 0xF3);
+pub(crate) const FILL: Colour = Colour::of(0xE9_EE_F3);
 
 /// Colours of curves that stay apart for colour-blind eyes and on light and dark pages
 /// (Okabe and Ito, Color Universal Design, 2008; without black and yellow).
-const PALETTE: [Colour; 7] = [
-    Colour(0x00, 0x72, 0xB2),
-    Colour(0xD5, 0x5E, 0x00),
-    Colour(0x00, 0x9E, 0x73),
-    Colour(0xCC, 0x79, 0xA7),
-    Colour(0xE6, 0x9F, 0x00),
-    Colour(0x56, 0xB4, 0xE9),
-    Colour(0x8C, 0x6D, 0x53),
-];
+const PALETTE: [u32; 7] =
+    [0x00_72_B2, 0xD5_5E_00, 0x00_9E_73, 0xCC_79_A7, 0xE6_9F_00, 0x56_B4_E9, 0x8C_6D_53];
 
 /// Colours of a family of curves from its lowest to its highest parameter, dark to bright on paper and, made brighter,
 /// on a dark page: each has a contrast of 3 or so on both.
-const RAMP: [Colour; 5] = [
-    Colour(0x4A, 0x34, 0xA4),
-    Colour(0x2D, 0x66, 0xA8),
-    Colour(0x1F, 0x7F, 0x8A),
-    Colour(0x4F, 0x94, 0x40),
-    Colour(0xBE, 0x8A, 0x10),
-];
+const RAMP: [u32; 5] = [0x4A_34_A4, 0x2D_66_A8, 0x1F_7F_8A, 0x4F_94_40, 0xBE_8A_10];
 
 /// The colour at a share, 0…1, of a family of curves.
 pub(crate) fn ramp_colour(share: f64) -> Colour {
@@ -116,20 +106,13 @@ pub(crate) fn ramp_colour(share: f64) -> Colour {
 }
 
 /// The line of a limit in a map.
-pub(crate) const LIMIT: Colour = Colour(0xC2, 0x18, 0x1E);
+pub(crate) const LIMIT: Colour = Colour::of(0xC2_18_1E);
 
 /// Colours of a map from its lowest to its highest value, dark to bright for every eye
 /// (cividis; Nuñez, Anderton and Renslow, 2018).
-const MAP: [Colour; 9] = [
-    Colour(0x00, 0x20, 0x4D),
-    Colour(0x00, 0x33, 0x6F),
-    Colour(0x39, 0x48, 0x6B),
-    Colour(0x57, 0x5C, 0x6D),
-    Colour(0x70, 0x71, 0x73),
-    Colour(0x8A, 0x87, 0x79),
-    Colour(0xA6, 0x9D, 0x75),
-    Colour(0xC4, 0xB5, 0x6C),
-    Colour(0xFF, 0xEA, 0x46),
+const MAP: [u32; 9] = [
+    0x00_20_4D, 0x00_33_6F, 0x39_48_6B, 0x57_5C_6D, 0x70_71_73, 0x8A_87_79, 0xA6_9D_75, 0xC4_B5_6C,
+    0xFF_EA_46,
 ];
 
 /// The colour of a map at a share of its range, 0…1.
@@ -138,7 +121,7 @@ pub(crate) fn map_colour(share: f64) -> Colour {
 }
 
 /// The colour at a share, 0…1, of the way through colours.
-fn along(colours: &[Colour], share: f64) -> Colour {
+fn along(colours: &[u32], share: f64) -> Colour {
     let place = share.clamp(0.0, 1.0) * (colours.len() - 1) as f64;
     #[expect(
         clippy::cast_possible_truncation,
@@ -147,7 +130,7 @@ fn along(colours: &[Colour], share: f64) -> Colour {
     )]
     let first = (place.floor() as usize).min(colours.len() - 2);
     let share = place - first as f64;
-    let (one, other) = (colours[first], colours[first + 1]);
+    let (one, other) = (Colour::of(colours[first]), Colour::of(colours[first + 1]));
     let mixed = |one: u8, other: u8| {
         let value = (1.0 - share) * f64::from(one) + share * f64::from(other);
         #[expect(
@@ -166,7 +149,7 @@ pub(crate) const COLOURS: usize = PALETTE.len();
 
 /// The `index`-th curve colour; after the last one they begin again.
 pub(crate) fn curve_colour(index: usize) -> Colour {
-    PALETTE[index % COLOURS]
+    Colour::of(PALETTE[index % COLOURS])
 }
 
 /// Colour of a reference line that belongs to the curves of this colour number, if to any.

@@ -102,8 +102,7 @@ impl Recomputation {
 
     /// The report as a page, with the drawings in the order of the figures.
     pub fn page(&self, drawings: Vec<ReportFigure>) -> Report {
-        let equations =
-            Table::new(FIGURE_3, &[], EQUATIONS.iter().map(|own| vec![(*own).to_owned()]));
+        let equations = Table::plain(FIGURE_3, EQUATIONS.iter().map(|own| vec![(*own).to_owned()]));
         let mut tables = self.number_tables().to_vec();
         tables.extend([misprint_table(&self.misprints), self.claim_table(), equations]);
         tables.extend(self.family_tables());

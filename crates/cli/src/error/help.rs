@@ -20,28 +20,9 @@ impl CliError {
             Self::Unreadable { similar: Some(similar), .. } => {
                 Some(format!("did you mean `{similar}`?"))
             }
-            Self::BeyondEnd { .. } => {
-                Some("give a time within it, or a longer `duration` in [run]".to_owned())
-            }
-            Self::Cushion(error) => Some(cushion_help(error).to_owned()),
-            Self::NothingToKeep { .. } | Self::NoLimits => Some(
-                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
-                    .to_owned(),
-            ),
             Self::Quantity { fault, .. } => fault.help(),
-            Self::Shard { fault, .. } => Some(fault.help().to_owned()),
-            Self::Interrupted { kept: 1.., .. } => {
-                Some("the same command goes on from there".to_owned())
-            }
-            Self::ColumnTaken { .. } => {
-                Some("give the column of the table another heading, such as `design`".to_owned())
-            }
-            Self::ShardsMissing { .. } => Some(MISSING_HELP.to_owned()),
-            Self::Contradiction { .. } => Some("change one of them, or leave it out".to_owned()),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
-            Self::SignalSamples { fault, .. } => sample_help(fault),
-            Self::Signal { fault, .. } => signal_help(fault),
             Self::SignalLimit { known, meant, .. } => Some(match meant {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!("there are {}", known.join(", ")),
@@ -52,73 +33,84 @@ impl CliError {
             Self::Run(
                 RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
             ) => suggestion(key, "measures", known),
-            Self::UnknownKind { .. } => Some("`dashpot list` names every kind".to_owned()),
-            Self::Unreadable { .. } => Some(
-                "`dashpot new --out pad.toml` writes a scene to start from, \
-                 `dashpot run` alone solves the built-in one"
-                    .to_owned(),
-            ),
-            Self::Foreign { help, .. } | Self::TooLarge { help, .. } => Some((*help).to_owned()),
-            Self::Busy { .. } => {
-                Some("choose another folder for `--out`, or wait until it is done".to_owned())
+            Self::Similarity(SimilarityError::UnknownQuantity { name, known }) => {
+                let speed = "`speed` is that at the end of the drop, sqrt(2 g0 h); ";
+                let speed = if name == "drop" { speed } else { "" };
+                Some(format!("{speed}there are {}", known.join(", ")))
             }
-            Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => Some(
-                "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
-                    .to_owned(),
-            ),
-            Self::NotLinear { .. } => Some(
-                "only linear models can be converted and compared; `dashpot rheometer` tests any \
-                 model, and a scene runs it"
-                    .to_owned(),
-            ),
-            Self::MovingMasses { .. } => {
-                Some("`dashpot compare` compares such networks".to_owned())
+            Self::Vibration(VibrationError::NoDrive { known, .. }) if !known.is_empty() => {
+                Some(format!("`--drive {name}` shakes `{name}`", name = known[0]))
             }
-            Self::MaterialAndPad | Self::MaterialInImpact { .. } => Some(
-                "an element with `material`, `thickness` and `area` is a pad; name that".to_owned(),
-            ),
-            Self::NotReplaced { .. } => Some(
-                "give the model a table of its own, [models.NAME], and convert that".to_owned(),
-            ),
-            Self::Similarity(error) => similarity_help(error),
-            Self::Vibration(error) => vibration_help(error),
-            Self::Run(RunError::NoneGetsThrough { .. }) => Some(
-                "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
-                    .to_owned(),
-            ),
-            Self::Run(RunError::Solve(error)) => solve_help(error),
-            _ => None,
+            Self::Run(RunError::Solve(SolveError::BudgetSpent { work, .. })) => Some(format!(
+                "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for less",
+                10.0 * *work as f64
+            )),
+            _ => self.general_help().map(str::to_owned),
         }
+    }
+
+    /// What to do about any error of a kind.
+    fn general_help(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::BeyondEnd { .. } => "give a time within it, or a longer `duration` in [run]",
+            Self::Cushion(error) => cushion_help(error),
+            Self::NothingToKeep { .. } | Self::NoLimits => {
+                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
+            }
+            Self::Shard { fault, .. } => fault.help(),
+            Self::Interrupted { kept: 1.., .. } => "the same command goes on from there",
+            Self::ColumnTaken { .. } => {
+                "give the column of the table another heading, such as `design`"
+            }
+            Self::ShardsMissing { .. } => MISSING_HELP,
+            Self::Contradiction { .. } => "change one of them, or leave it out",
+            Self::SignalSamples { fault, .. } => return sample_help(fault),
+            Self::Signal { fault, .. } => return signal_help(fault),
+            Self::UnknownKind { .. } => "`dashpot list` names every kind",
+            Self::Unreadable { .. } => {
+                "`dashpot new --out pad.toml` writes a scene to start from, `dashpot run` alone solves the built-in one"
+            }
+            Self::Foreign { help, .. } | Self::TooLarge { help, .. } => *help,
+            Self::Busy { .. } => "choose another folder for `--out`, or wait until it is done",
+            Self::Unfit { reason: Unfit::OtherShape { .. }, .. } => {
+                "`--to generalized-maxwell` and `--to generalized-kelvin` take every model"
+            }
+            Self::NotLinear { .. } => {
+                "only linear models can be converted and compared; `dashpot rheometer` tests any model, and a scene \
+                 runs it"
+            }
+            Self::MovingMasses { .. } => "`dashpot compare` compares such networks",
+            Self::MaterialAndPad | Self::MaterialInImpact { .. } => {
+                "an element with `material`, `thickness` and `area` is a pad; name that"
+            }
+            Self::NotReplaced { .. } => {
+                "give the model a table of its own, [models.NAME], and convert that"
+            }
+            Self::Vibration(error) => return vibration_help(error),
+            Self::Run(RunError::NoneGetsThrough { .. }) => {
+                "`--accuracy 1%` asks for less; a shorter `duration` gives what comes until then"
+            }
+            Self::Run(RunError::Solve(error)) => return solve_help(error),
+            _ => return None,
+        })
     }
 }
 
-/// What to do about a parameter that the scene does not have.
-fn similarity_help(error: &SimilarityError) -> Option<String> {
-    let SimilarityError::UnknownQuantity { name, known } = error else { return None };
-    let known = known.join(", ");
-    Some(if name == "drop" {
-        format!("`speed` is that at the end of the drop, sqrt(2 g0 h); there are {known}")
-    } else {
-        format!("there are {known}")
-    })
-}
-
 /// What to do about samples that are no signal.
-fn sample_help(fault: &ChannelFault) -> Option<String> {
-    let help = match fault {
+fn sample_help(fault: &ChannelFault) -> Option<&'static str> {
+    Some(match fault {
         ChannelFault::TimeBack { .. } => {
             "sort the rows by time, and leave one of two rows of the same time; a file of several tests is to be cut \
              into one for each"
         }
         ChannelFault::TooFew { .. } => "look whether the right file was exported, and whole",
         _ => return None,
-    };
-    Some(help.to_owned())
+    })
 }
 
 /// What to do about a channel that cannot be read as it is asked for.
-fn signal_help(fault: &SettingsFault) -> Option<String> {
-    let help = match fault {
+fn signal_help(fault: &SettingsFault) -> Option<&'static str> {
+    Some(match fault {
         SettingsFault::NoRest => {
             "give what the channel reads at rest, `--offset \"0.3 g\"`, or record from some ms before the pulse on"
         }
@@ -134,65 +126,51 @@ fn signal_help(fault: &SettingsFault) -> Option<String> {
             "look at the times of the record: without `--from`, `--to` and `--rate` they are printed"
         }
         _ => return None,
-    };
-    Some(help.to_owned())
+    })
 }
 
 /// What to do about a scene that cannot be shaken.
-fn vibration_help(error: &VibrationError) -> Option<String> {
-    match error {
-        VibrationError::NoDrive { known, .. } => match known.first() {
-            Some(name) => Some(format!("`--drive {name}` shakes `{name}`")),
-            None => Some(
-                "hold a node with `fixed = true`, or put a load on one under [loads]".to_owned(),
-            ),
-        },
-        VibrationError::Loose { .. } => Some(
-            "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; \
-                 or leave out the separation: then it pulls as it pushes"
-                .to_owned(),
-        ),
-        VibrationError::NotLinear { .. } | VibrationError::OnStop { .. } => Some(
-            "`dashpot run` solves it in time: give the node that shakes \
-                 `motion = { sine = { amplitude = \"1 mm\", frequency = \"20 Hz\" } }` (a load \
-                 likewise a `force`), a `duration` of many periods, and ask for its measures with \
-                 `window = \"run\"`; or leave out of [effects] what switches"
-                .to_owned(),
-        ),
-        _ => None,
-    }
+fn vibration_help(error: &VibrationError) -> Option<&'static str> {
+    Some(match error {
+        VibrationError::NoDrive { .. } => {
+            "hold a node with `fixed = true`, or put a load on one under [loads]"
+        }
+        VibrationError::Loose { .. } => {
+            "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; or leave out the \
+             separation: then it pulls as it pushes"
+        }
+        VibrationError::NotLinear { .. } | VibrationError::OnStop { .. } => {
+            "`dashpot run` solves it in time: give the node that shakes `motion = { sine = { amplitude = \"1 mm\", \
+             frequency = \"20 Hz\" } }` (a load likewise a `force`), a `duration` of many periods, and ask for its \
+             measures with `window = \"run\"`; or leave out of [effects] what switches"
+        }
+        _ => return None,
+    })
 }
 
 /// What to do about a solution that failed.
-fn solve_help(error: &SolveError) -> Option<String> {
-    match error {
-        SolveError::NotApplicable { .. } => Some("`--method auto` chooses one that can".to_owned()),
+fn solve_help(error: &SolveError) -> Option<&'static str> {
+    Some(match error {
+        SolveError::NotApplicable { .. } => "`--method auto` chooses one that can",
         SolveError::TooManySteps { method, .. }
         | SolveError::StepTooSmall { method, .. }
-        | SolveError::NewtonFailed { method, .. } => Some(if *method == Tsit45::KIND {
-            "an explicit method takes short steps where parts are stiff, whatever the \
-                     accuracy; `--method auto` chooses one that suits"
-                .to_owned()
-        } else {
-            "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks \
-                     for less"
-                .to_owned()
-        }),
-        SolveError::BudgetSpent { work, .. } => Some(format!(
-            "`--budget {:.0e}` grants more; a shorter `duration` or `--accuracy 1%` asks for \
-                     less",
-            10.0 * *work as f64
-        )),
-        SolveError::TooLarge { .. } => Some(
-            "a shorter `duration`, or a condition under [run] that ends it, keeps less".to_owned(),
-        ),
-        SolveError::TooManySwitches { .. } => Some(
-            "what loses nothing in its impacts bounces for ever, ever lower as others lose \
-                     speed: a `restitution` below 1 lets it come to rest; or a shorter `duration`"
-                .to_owned(),
-        ),
-        _ => None,
-    }
+        | SolveError::NewtonFailed { method, .. } => {
+            if *method == Tsit45::KIND {
+                "an explicit method takes short steps where parts are stiff, whatever the accuracy; `--method auto` \
+                 chooses one that suits"
+            } else {
+                "`--method auto` tries another method where one gets stuck; `--accuracy 1%` asks for less"
+            }
+        }
+        SolveError::TooLarge { .. } => {
+            "a shorter `duration`, or a condition under [run] that ends it, keeps less"
+        }
+        SolveError::TooManySwitches { .. } => {
+            "what loses nothing in its impacts bounces for ever, ever lower as others lose speed: a `restitution` \
+             below 1 lets it come to rest; or a shorter `duration`"
+        }
+        _ => return None,
+    })
 }
 
 /// Whether a word is a unit, which belongs to the quantity before it.

@@ -73,16 +73,10 @@ pub(crate) enum CliError {
     NoLimits,
     /// What is made least is held by nothing.
     #[error("nothing holds `{name}`: there is no limit that a design has to keep")]
-    NothingToKeep {
-        /// What is made least.
-        name: String,
-    },
-    /// No design can be solved.
+    NothingToKeep { name: String },
+    /// No design can be solved, the first of them for this reason.
     #[error("{reason}")]
-    NoDesign {
-        /// Why the first of them cannot.
-        reason: String,
-    },
+    NoDesign { reason: String },
     /// A scene that is no drop onto a cushion.
     #[error(transparent)]
     Cushion(Box<NoCushion>),
@@ -285,6 +279,11 @@ pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> 
 }
 
 impl CliError {
+    /// What is wrong with a setting of this name.
+    pub(crate) fn setting(name: &str, reason: impl Into<String>) -> Self {
+        Self::WrongSetting { name: name.to_owned(), reason: reason.into() }
+    }
+
     /// What is wrong with a quantity of this name.
     pub(crate) fn quantity(name: &str, fault: Fault) -> Self {
         Self::Quantity { name: name.to_owned(), fault: Box::new(fault) }

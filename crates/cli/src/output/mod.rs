@@ -54,15 +54,16 @@ pub(crate) const PAGE: &str = "report.html";
 /// Version of the program; also the mark of files that it wrote.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// An object with these keys, in this order: `object! { method: own.method, rtol }`.
+/// An object with these keys, in this order: `object! { method: own.method, rtol }`; a key that has the attribute
+/// `#[serde(flatten)]` stands for those of its value.
 macro_rules! object {
     (@value $key:ident) => { $key };
     (@value $key:ident $value:expr) => { $value };
-    ($($key:ident $(: $value:expr)?),* $(,)?) => {{
+    ($($(#[$flatten:meta])? $key:ident $(: $value:expr)?),* $(,)?) => {{
         #[expect(non_camel_case_types, reason = "a key is the name of its own type as well")]
         mod object {
             #[derive(serde::Serialize)]
-            pub(super) struct Object<$($key),*> { $(pub(super) $key: $key),* }
+            pub(super) struct Object<$($key),*> { $($(#[$flatten])? pub(super) $key: $key),* }
         }
         object::Object { $($key: object!(@value $key $($value)?)),* }
     }};

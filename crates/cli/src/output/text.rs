@@ -15,7 +15,6 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// What `write` writes.
     pub(crate) fn written(terminal: Terminal, write: impl FnOnce(&mut Self)) -> String {
         let mut text = Self { terminal, text: String::new() };
         write(&mut text);
@@ -47,7 +46,6 @@ impl Text {
         }
     }
 
-    /// An empty line.
     pub(crate) fn blank(&mut self) {
         self.line("");
     }

@@ -28,7 +28,6 @@ use crate::{
     verbs::run::level,
 };
 
-/// Families of kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Family {
     /// Primitive laws of elements.
@@ -170,7 +169,6 @@ fn entry_text(entry: &Entry, widest: usize) -> String {
 /// A kind in a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Entry {
-    /// Its word.
     name: String,
     /// One line on what it is.
     summary: String,

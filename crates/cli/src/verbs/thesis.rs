@@ -42,7 +42,6 @@ pub(crate) struct ThesisArguments {
     json: bool,
 }
 
-/// Recomputes the thesis.
 pub(crate) fn thesis(arguments: &ThesisArguments, terminal: Terminal) -> Result<Status, CliError> {
     let figures = figure_stems()
         .flat_map(|figure_stem| [format!("{figure_stem}.svg"), format!("{figure_stem}.csv")]);

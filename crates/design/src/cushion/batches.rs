@@ -8,6 +8,7 @@ use dashpot_analysis::{
     Band, Odds,
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch},
 };
+use serde::Serialize;
 
 use super::{
     Asked, Cushion, NoCushion, PoseOfThickness, Work,
@@ -18,7 +19,7 @@ use super::{
 use crate::{optimum::Scattered, shared::exceeded};
 
 /// How sure it is that the thinnest cushion keeps its limit over the range.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sure {
     /// Designs of that thickness that keep it, and that exceed it.
     pub odds: Odds,

@@ -35,6 +35,7 @@ mod tests;
 
 use dashpot_analysis::{RunError, Unevaluated, sweep::SweepError};
 use dashpot_network::NetworkErrors;
+use serde::Serialize;
 use thiserror::Error;
 
 pub use self::{
@@ -110,7 +111,7 @@ impl Cushion {
 }
 
 /// How curves were solved.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Points of the curves.
     pub points: usize,

@@ -1,6 +1,7 @@
 //! What a search has found.
 
 use dashpot_analysis::{RunReport, Unevaluated};
+use serde::Serialize;
 
 use super::{Required, search::SAME};
 
@@ -141,7 +142,7 @@ pub enum Side {
 }
 
 /// How a design was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Searched {
     /// Designs that were spread over the bounds.
     pub designs: usize,

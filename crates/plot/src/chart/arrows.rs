@@ -17,7 +17,6 @@ const STEP: f64 = 5.0;
 /// A curve bends less than this within an arrowhead: the chord as a part of the way.
 const STRAIGHT: f64 = 0.97;
 
-/// An arrowhead.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Arrowhead {
     /// Its tip, and the two corners behind it \[px\].

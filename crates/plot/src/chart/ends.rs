@@ -39,7 +39,6 @@ struct EndName {
     at: f64,
 }
 
-/// All names.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct EndNames(Vec<EndName>);
 

@@ -88,7 +88,6 @@ pub(super) struct Placer {
     taken: Vec<Area>,
     points: Path,
     leaders: Vec<Leader>,
-    /// Lines across the frame.
     across: Vec<Leader>,
 }
 

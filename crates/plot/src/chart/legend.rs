@@ -69,7 +69,6 @@ impl Legend {
         Self { entries: placed, rows }
     }
 
-    /// The placed entries.
     pub(super) fn entries(&self) -> &[Entry] {
         &self.entries
     }

@@ -88,6 +88,16 @@ impl Series {
         Self { name: name.into(), points, stroke: None }
     }
 
+    /// A curve in a colour of the theme, as in [`Stroke::colour`], and a pattern.
+    pub fn drawn(
+        name: impl Into<String>,
+        (colour, pattern): (usize, Pattern),
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let stroke = Some(Stroke { colour, pattern });
+        Self { stroke, ..Self::new(name, points.into_iter().collect()) }
+    }
+
     /// A band from (x, lower, upper) to the next, in a colour of the theme; what is not finite is a gap.
     pub fn band(
         name: impl Into<String>,
@@ -102,8 +112,7 @@ impl Series {
             points.extend(stretch.iter().rev().map(|own| (own.0, own.2)));
             points.push((f64::NAN, f64::NAN));
         }
-        let stroke = Some(Stroke { colour, pattern: Pattern::Band });
-        Self { name: name.into(), points, stroke }
+        Self::drawn(name, (colour, Pattern::Band), points)
     }
 }
 
@@ -164,6 +173,13 @@ pub struct ReferenceLine {
     /// Number of the theme's curve colour in which line and text are drawn, as in [`Stroke::colour`]; `None` for a
     /// line that belongs to no single curve.
     pub colour: Option<usize>,
+}
+
+impl ReferenceLine {
+    /// A line that belongs to no single curve.
+    pub fn new(direction: Direction, at: f64, label: impl Into<String>) -> Self {
+        Self { direction, at, label: label.into(), colour: None }
+    }
 }
 
 /// Which way a [`ReferenceLine`] runs.

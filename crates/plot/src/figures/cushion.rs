@@ -1,6 +1,6 @@
 //! Cushion curves: peak acceleration over static stress, one curve for each thickness.
 
-use crate::{Chart, Direction, Marker, Pattern, ReferenceLine, Scale, Series, Stroke};
+use crate::{Chart, Direction, Marker, Pattern, ReferenceLine, Scale, Series};
 
 /// A figure shows peaks up to so many times the largest of the best ones, the limit and the floors.
 const ROOM: f64 = 2.5;
@@ -38,8 +38,8 @@ pub struct CushionCurve {
     pub band: Vec<(f64, f64, f64)>,
 }
 
-/// How well a point of a cushion curve is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// How well a point of a cushion curve is known, the best first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum CushionMark {
     /// Wholly.
     #[default]
@@ -55,13 +55,6 @@ impl CushionMark {
             Self::OnStop => Pattern::Dashed,
         }
     }
-
-    fn words(self) -> &'static str {
-        match self {
-            Self::Known => "",
-            Self::OnStop => "dashed: on the stop",
-        }
-    }
 }
 
 impl CushionSeries {
@@ -69,26 +62,20 @@ impl CushionSeries {
     /// the best point of each curve marked.
     pub fn chart(&self) -> Chart {
         let top = self.top();
-        let mut series: Vec<Series> = Vec::new();
-        series.extend(
-            self.curves.iter().enumerate().filter_map(|(colour, own)| own.band(colour, top)),
-        );
-        for (colour, curve) in self.curves.iter().enumerate() {
-            series.extend(curve.parts(colour, top));
-        }
-        series.extend(
-            self.curves.iter().enumerate().filter_map(|(colour, own)| own.later(colour, top)),
-        );
-        let floors = self.curves.iter().enumerate().filter_map(|(colour, own)| {
+        let curves = || self.curves.iter().enumerate();
+        let bands = curves().filter_map(|(colour, own)| own.band(colour, top));
+        let parts = curves().flat_map(|(colour, own)| own.parts(colour, top));
+        let later = curves().filter_map(|(colour, own)| own.later(colour, top));
+        let mut series: Vec<Series> = bands.chain(parts).chain(later).collect();
+        let floors = curves().filter_map(|(colour, own)| {
             let ends = [own.points.first()?.0, own.points.last()?.0];
             let floor = own.floor.filter(|own| *own <= top)?;
-            let stroke = Some(Stroke { colour, pattern: Pattern::DashDotted });
-            let points = ends.map(|x| (x, floor)).to_vec();
-            Some(Series { name: String::new(), points, stroke })
+            let points = ends.map(|x| (x, floor));
+            Some(Series::drawn("", (colour, Pattern::DashDotted), points))
         });
         let floors: Vec<Series> = floors.collect();
         let mut notes = vec![self.note.clone()];
-        notes.extend(self.has(CushionMark::OnStop).then(|| CushionMark::OnStop.words().to_owned()));
+        notes.extend(self.has(CushionMark::OnStop).then(|| "dashed: on the stop".to_owned()));
         notes.extend(
             (!floors.is_empty()).then(|| "dash-dotted: no cushion can do better".to_owned()),
         );
@@ -99,19 +86,13 @@ impl CushionSeries {
         notes.retain(|own| !own.is_empty());
         let markers = self.curves.iter().filter_map(|own| own.best).filter(|own| own.1 <= top);
         let markers = markers.map(|(x, y)| Marker { x, y, label: format!("{} g", rounded(y)) });
-        let limit = self.limit.map(|at| ReferenceLine {
-            direction: Direction::Horizontal,
-            at,
-            label: format!("limit {} g", rounded(at)),
-            colour: None,
+        let limit = self.limit.map(|at| {
+            ReferenceLine::new(Direction::Horizontal, at, format!("limit {} g", rounded(at)))
         });
-        let own =
-            self.own.as_ref().filter(|own| self.reaches(own.0)).map(|(at, name)| ReferenceLine {
-                direction: Direction::Vertical,
-                at: *at,
-                label: format!("{name} {} kPa", rounded(*at)),
-                colour: None,
-            });
+        let own = self.own.as_ref().filter(|own| self.reaches(own.0)).map(|(at, name)| {
+            let label = format!("{name} {} kPa", rounded(*at));
+            ReferenceLine::new(Direction::Vertical, *at, label)
+        });
         series.extend(floors);
         Chart {
             title: self.title.clone(),
@@ -175,9 +156,8 @@ impl CushionCurve {
     fn later(&self, colour: usize, top: f64) -> Option<Series> {
         let gap = |own: (f64, f64)| if own.1 <= top { own } else { (own.0, f64::NAN) };
         let points: Vec<(f64, f64)> = self.later.iter().copied().map(gap).collect();
-        let stroke = Some(Stroke { colour, pattern: Pattern::Broad });
         let has_any = points.iter().any(|own| own.1.is_finite());
-        has_any.then(|| Series { name: String::new(), points, stroke })
+        has_any.then(|| Series::drawn("", (colour, Pattern::Broad), points))
     }
 
     /// The parts of the curve that are known equally well; the last one that is drawn has the name.
@@ -188,7 +168,7 @@ impl CushionCurve {
             let mut points = Vec::new();
             for pair in all.windows(2) {
                 // A part reaches to the last point that is known better.
-                let worst = if rank(pair[0].2) > rank(pair[1].2) { pair[0].2 } else { pair[1].2 };
+                let worst = pair[0].2.max(pair[1].2);
                 let ends = cut_at([(pair[0].0, pair[0].1), (pair[1].0, pair[1].1)], top);
                 match ends.filter(|_| worst == mark) {
                     Some(ends) if points.last() == Some(&ends[0]) => points.push(ends[1]),
@@ -198,8 +178,7 @@ impl CushionCurve {
                 }
             }
             if !points.is_empty() {
-                let stroke = Some(Stroke { colour, pattern: mark.pattern() });
-                parts.push(Series { name: String::new(), points, stroke });
+                parts.push(Series::drawn("", (colour, mark.pattern()), points));
             }
         }
         if let Some(first) = parts.first_mut() {
@@ -214,19 +193,12 @@ impl CushionCurve {
         let Some((x, y)) = self.best else { return all };
         let at = all.partition_point(|own| own.0 < x);
         if let (Some(before), Some(after)) = (at.checked_sub(1).map(|own| all[own]), all.get(at)) {
-            let mark = if rank(before.2) < rank(after.2) { before.2 } else { after.2 };
+            let mark = before.2.min(after.2);
             if after.0 > x {
                 all.insert(at, (x, y, mark));
             }
         }
         all
-    }
-}
-
-fn rank(mark: CushionMark) -> u8 {
-    match mark {
-        CushionMark::Known => 0,
-        CushionMark::OnStop => 1,
     }
 }
 

@@ -2,7 +2,7 @@
 //! is left of the rows.
 
 use super::unit::{self, Unit};
-use crate::{Chart, Direction, Pattern, ReferenceLine, Scale, Series, Stroke};
+use crate::{Chart, Direction, Pattern, ReferenceLine, Scale, Series};
 
 /// Every figure of fits. **A new one is registered here.**
 pub const FIT_FIGURES: &[FitFigure] = &[HISTORY, RELAXATION, CREEP, OSCILLATION];
@@ -161,9 +161,8 @@ impl FitFigure {
             left.extend(self.left(channel, colour, (x.0, y.0)));
         }
         if self.is_slow && !own.branches.is_empty() {
-            let stroke = Some(Stroke { colour: BRANCHES, pattern: Pattern::Stems });
-            let name = "branches".to_owned();
-            series.push(Series { name, points: own.branches.clone(), stroke });
+            let stroke = (BRANCHES, Pattern::Stems);
+            series.push(Series::drawn("branches", stroke, own.branches.clone()));
         }
         let scale = |unit| if self.is_slow { Scale::logarithmic(unit) } else { Scale::Linear };
         let whole = is_cut.then(|| "the event; the record is longer".to_owned());
@@ -172,12 +171,7 @@ impl FitFigure {
         let below = Chart {
             y_label: if self.is_slow { "left (%)".to_owned() } else { format!("left ({})", y.2) },
             x_scale: scale(self.x.1),
-            lines: vec![ReferenceLine {
-                direction: Direction::Horizontal,
-                at: 0.0,
-                label: String::new(),
-                colour: None,
-            }],
+            lines: vec![ReferenceLine::new(Direction::Horizontal, 0.0, "")],
             series: left,
             ..Chart::default()
         };
@@ -216,10 +210,9 @@ impl FitFigure {
             let left = value - own.measured;
             if self.is_slow { 100.0 * left / own.measured } else { left / y }
         };
-        let line = |of: &dyn Fn(&FitRow) -> f64, colour, pattern| Series {
-            name: String::new(),
-            points: channel.rows.iter().map(|own| (own.x / x, of(own))).collect(),
-            stroke: Some(Stroke { colour, pattern }),
+        let line = |of: &dyn Fn(&FitRow) -> f64, colour, pattern| {
+            let points = channel.rows.iter().map(|own| (own.x / x, of(own)));
+            Series::drawn("", (colour, pattern), points)
         };
         let half = |own: &FitRow| own.half.unwrap_or(f64::NAN);
         let band = channel.rows.iter().map(|own| {
@@ -243,10 +236,8 @@ fn overlay(channel: &FitChannel, colour: usize, (x, y): (f64, f64), is_first: bo
         if channel.name.is_empty() { text.to_owned() } else { format!("{}, {text}", channel.name) }
     };
     let once = |text: &str| if is_first { text.to_owned() } else { String::new() };
-    let line = |name: String, of: &dyn Fn(&FitRow) -> f64, colour, pattern| Series {
-        name,
-        points: rows.iter().map(|own| (own.x / x, of(own) / y)).collect(),
-        stroke: Some(Stroke { colour, pattern }),
+    let line = |name: String, of: &dyn Fn(&FitRow) -> f64, colour, pattern| {
+        Series::drawn(name, (colour, pattern), rows.iter().map(|own| (own.x / x, of(own) / y)))
     };
     let band = rows.iter().map(|own| {
         let half = own.half.unwrap_or(f64::NAN);

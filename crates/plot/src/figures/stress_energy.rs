@@ -1,6 +1,6 @@
 //! The stress–energy method: dynamic stress over dynamic energy of many drops, and what they are taken for.
 
-use crate::{Chart, Pattern, Scale, Series, Stroke};
+use crate::{Chart, Pattern, Scale, Series};
 
 /// Drops as the stress–energy method sees them, in the units of the axes.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,15 +18,10 @@ pub struct StressEnergySeries {
 impl StressEnergySeries {
     /// The chart: the stress on a logarithmic axis, on which the exponential is a straight line.
     pub fn chart(&self) -> Chart {
-        let line = |name: &str, points: &[(f64, f64)], pattern: Pattern, colour: usize| Series {
-            name: name.to_owned(),
-            points: points.to_vec(),
-            stroke: Some(Stroke { colour, pattern }),
-        };
         let series = vec![
-            line("drops", &self.points, Pattern::Points, 0),
-            line("one smooth curve", &self.smooth, Pattern::Solid, 0),
-            line("a e^(b x)", &self.exponential, Pattern::Dashed, 1),
+            Series::drawn("drops", (0, Pattern::Points), self.points.clone()),
+            Series::drawn("one smooth curve", (0, Pattern::Solid), self.smooth.clone()),
+            Series::drawn("a e^(b x)", (1, Pattern::Dashed), self.exponential.clone()),
         ];
         Chart {
             title: "Stress–energy method".into(),

@@ -36,18 +36,12 @@ impl VibrationSeries {
     pub fn ratio_chart(&self) -> Chart {
         let marker =
             |(x, y, label): &(f64, f64, String)| Marker { x: *x, y: *y, label: label.clone() };
-        let line = ReferenceLine {
-            direction: Direction::Horizontal,
-            at: 1.0,
-            label: "as driven".into(),
-            colour: None,
-        };
         Chart {
             y_label: "transmissibility".into(),
             y_scale: Scale::logarithmic(""),
             series: self.series(|own| own.ratio.clone()),
             markers: self.shown().flat_map(|own| &own.peaks).map(marker).collect(),
-            lines: vec![line],
+            lines: vec![ReferenceLine::new(Direction::Horizontal, 1.0, "as driven")],
             ..self.frame()
         }
     }

@@ -1,6 +1,6 @@
 //! Figures of what accuracy costs: error against time, and against work.
 
-use crate::{Chart, Pattern, Scale, Series, Stroke};
+use crate::{Chart, Pattern, Scale, Series};
 
 /// What several methods reach at falling tolerances.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -43,14 +43,12 @@ impl PrecisionSeries {
     fn chart(&self, along: impl Fn(&PrecisionCurve) -> &Vec<f64>) -> Chart {
         let mut series = Vec::new();
         for (colour, own) in self.curves.iter().enumerate() {
-            let points: Vec<(f64, f64)> =
-                along(own).iter().copied().zip(own.error.iter().copied()).collect();
-            let stroke = Some(Stroke { colour, pattern: Pattern::Solid });
+            let points = along(own).iter().copied().zip(own.error.iter().copied());
+            let stroke = (colour, Pattern::Solid);
             // A point between gaps is a disc; without a name it has no entry in the legend.
             let gap = (f64::NAN, f64::NAN);
-            let discs = points.iter().flat_map(|point| [*point, gap]).collect();
-            series.push(Series { name: own.name.clone(), points, stroke });
-            series.push(Series { name: String::new(), points: discs, stroke });
+            let discs = Series::drawn("", stroke, points.clone().flat_map(|point| [point, gap]));
+            series.extend([Series::drawn(&own.name, stroke, points), discs]);
         }
         Chart {
             title: self.title.clone(),

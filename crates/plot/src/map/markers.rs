@@ -26,7 +26,6 @@ impl Map {
         }
     }
 
-    /// Draws the points.
     pub(super) fn draw_markers(&self, svg: &mut String, frame: &Frame) {
         for (_, (x, y)) in self.marked(frame) {
             let _ = writeln!(

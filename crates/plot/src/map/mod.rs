@@ -130,7 +130,6 @@ impl Map {
     }
 }
 
-/// Bands of colour.
 const BANDS: usize = 32;
 /// What is said of dots.
 const UNDECIDED: &str = "dotted: undecided";

@@ -61,19 +61,25 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with these column headings, none for none.
+    /// A table with these column headings.
     pub fn new(
         caption: impl Into<String>,
-        header: &[&str],
+        header: impl IntoIterator<Item: ToString>,
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Self {
-        let header = header.iter().map(|own| (*own).to_owned()).collect();
-        Self { caption: caption.into(), header, rows: rows.into_iter().collect() }
+        let header = header.into_iter().map(|own| own.to_string()).collect();
+        Self { header, ..Self::plain(caption, rows) }
+    }
+
+    /// A table without headings.
+    pub fn plain(caption: impl Into<String>, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
+        let rows = rows.into_iter().collect();
+        Self { caption: caption.into(), header: Vec::new(), rows }
     }
 
     /// A table of one column without a heading.
     pub fn list(caption: impl Into<String>, lines: impl IntoIterator<Item = String>) -> Self {
-        Self::new(caption, &[], lines.into_iter().map(|line| vec![line]))
+        Self::plain(caption, lines.into_iter().map(|line| vec![line]))
     }
 }
 

@@ -39,7 +39,6 @@ pub(super) struct Placed {
     pub(super) wired: (bool, bool),
 }
 
-/// A whole drawing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Plan {
     pub(super) width: f64,

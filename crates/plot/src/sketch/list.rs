@@ -50,7 +50,6 @@ pub(super) fn lines_and_loads(node: &SketchNode) -> Vec<String> {
     node.lines.iter().map(|line| one_line(line)).chain(loads).collect()
 }
 
-/// Gravity in one line.
 pub(super) fn gravity(gravity: &SketchGravity) -> String {
     let arrow = if gravity.pulls_back { '←' } else { '→' };
     format!("g = {} {arrow}", one_line(&gravity.label))

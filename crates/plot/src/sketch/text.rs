@@ -232,7 +232,6 @@ struct Cell {
     text: Option<String>,
 }
 
-/// Characters in rows.
 #[derive(Debug, Clone, Default)]
 struct Grid {
     rows: Vec<Vec<Cell>>,

@@ -11,7 +11,6 @@ struct Level {
     at: f64,
     /// The mean of their values.
     value: f64,
-    /// How many there are.
     count: f64,
 }
 

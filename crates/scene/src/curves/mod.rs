@@ -34,7 +34,6 @@ pub(crate) struct Fitted {
 /// How far a curve is from rows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Difference {
-    /// The largest difference.
     pub(crate) largest: f64,
     /// The byte at which its row begins.
     pub(crate) start: usize,
@@ -42,7 +41,6 @@ pub(crate) struct Difference {
     pub(crate) mean: f64,
     /// The largest value.
     pub(crate) peak: f64,
-    /// Number of rows.
     pub(crate) rows: usize,
     /// Where the curve begins, where no row is at rest.
     pub(crate) begins: Option<(f64, f64)>,

@@ -31,14 +31,9 @@ pub enum Fault {
     /// The text is larger than the limit.
     #[error("the text has {bytes} bytes; the limit is 64 MB")]
     TooLarge { bytes: usize },
-    /// The bytes are not UTF-8.
+    /// The bytes are not UTF-8, of which this is the first that cannot be read, counted from 0.
     #[error("the text is not UTF-8: byte {at} cannot be read (line {line})")]
-    NotUtf8 {
-        /// The first byte that cannot be read, from 0.
-        at: usize,
-        /// Its line, from 1.
-        line: usize,
-    },
+    NotUtf8 { at: usize, line: usize },
     /// There is nothing in the text.
     #[error("the scene is empty")]
     Empty,
@@ -84,27 +79,18 @@ pub enum Fault {
     /// A quantity of a wrong dimension.
     #[error("`{text}` is {}; {} is expected here", described(*.found), described(*.expected))]
     WrongDimension { text: String, found: Dimension, expected: Dimension },
-    /// An angular frequency in place of a frequency.
+    /// An angular frequency in place of a frequency, and the same as a frequency \[Hz\].
     #[error("`{text}` is an angular frequency; a frequency (Hz) is expected here")]
-    AngularFrequency {
-        text: String,
-        /// The same as a frequency \[Hz\].
-        frequency: f64,
-    },
+    AngularFrequency { text: String, frequency: f64 },
     /// A temperature in place of a difference of temperatures.
     #[error("`{text}` is a temperature; a difference of temperatures (K) is expected here")]
     CelsiusDifference { text: String },
     /// A path that leads to several numbers or words.
     #[error("`{name}` may be {}", .names.join(" or "))]
     AmbiguousPath { name: String, names: Vec<String> },
-    /// A name that stands for nothing.
+    /// A name that stands for nothing in its family: node, model, value …
     #[error("there is no {family} named `{name}`")]
-    UnknownName {
-        /// What is named: node, model, value …
-        family: &'static str,
-        name: String,
-        known: Vec<String>,
-    },
+    UnknownName { family: &'static str, name: String, known: Vec<String> },
     /// A word that is none of those that may stand there.
     #[error("`{word}` is not {family}")]
     UnknownWord { family: String, word: String, known: Vec<&'static str> },
@@ -120,21 +106,14 @@ pub enum Fault {
     /// Values that refer to others, too many in a row.
     #[error("this value refers to others in a chain of more than {limit}")]
     ValuesTooDeep { limit: usize },
-    /// A model that contains itself.
+    /// A model or material that contains itself.
     #[error("the {family} `{}` contains itself ({})", .names.first().map_or("", String::as_str), .names.join(" → "))]
-    ModelInItself {
-        /// What it is: a model or a material.
-        family: &'static str,
-        names: Vec<String>,
-    },
+    ModelInItself { family: &'static str, names: Vec<String> },
     /// A model within others, too many.
     #[error(
         "the models around this one are nested {limit} levels deep already, which is the limit"
     )]
-    ModelTooDeep {
-        /// Tables of models within each other that are read.
-        limit: usize,
-    },
+    ModelTooDeep { limit: usize },
     /// A table that says nothing about its law.
     #[error("{owner} has no law")]
     NoLaw { owner: String, known: Vec<&'static str> },
@@ -147,28 +126,15 @@ pub enum Fault {
     /// A contact within a material.
     #[error("`{word}` cannot stand in a material: it acts across a gap")]
     ElementInMaterial { word: &'static str },
-    /// Two sizes of one pad.
+    /// Two sizes of one pad: thicknesses or areas.
     #[error("`{key}` is {found} here, but {expected} in {place}")]
-    SizesDiffer {
-        /// `thickness` or `area`.
-        key: &'static str,
-        found: String,
-        expected: String,
-        place: String,
-    },
+    SizesDiffer { key: &'static str, found: String, expected: String, place: String },
     /// The size of a pad where there is none.
     #[error("`{key}` goes with a material or foam, which {owner} is not")]
-    SizeWithoutMaterial {
-        /// `thickness` or `area`.
-        key: &'static str,
-        owner: String,
-    },
+    SizeWithoutMaterial { key: &'static str, owner: String },
     /// The size of a pad within a material.
     #[error("a material has no `{key}`; the pads that are made of it have one")]
-    SizeInMaterial {
-        /// `thickness` or `area`.
-        key: &'static str,
-    },
+    SizeInMaterial { key: &'static str },
     /// A text with several models, or none, and no word on which is meant.
     #[error("{}", if .known.is_empty() { "there is no model here" } else { "there are several models here" })]
     WhichModel { known: Vec<String> },
@@ -184,20 +150,13 @@ pub enum Fault {
     /// A list without entries.
     #[error("`{key}` is an empty list")]
     EmptyList { key: String },
-    /// Models that expand to more than memory should hold.
+    /// Models that expand to more bytes of memory than it should hold.
     #[error(
         "{model} expands to {parts} parts, about {:.0} GB of memory; the limit is {:.0} GB",
         *.bytes as f64 * 1e-9,
         *.limit as f64 * 1e-9
     )]
-    TooManyParts {
-        model: String,
-        parts: u64,
-        /// What they take \[B\].
-        bytes: u64,
-        /// What they may take \[B\].
-        limit: u64,
-    },
+    TooManyParts { model: String, parts: u64, bytes: u64, limit: u64 },
     /// Two keys that contradict each other.
     #[error("`{first}` and `{second}` exclude each other")]
     Exclusive { first: &'static str, second: &'static str },
@@ -242,14 +201,9 @@ pub enum Fault {
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
-    /// A fault about which its surroundings tell more.
+    /// A fault about which its surroundings tell more; without help here it has its own.
     #[error("{fault}")]
-    Explained {
-        fault: Box<Self>,
-        /// How to put it right; the fault's own help where there is none.
-        help: Option<String>,
-        note: Option<String>,
-    },
+    Explained { fault: Box<Self>, help: Option<String>, note: Option<String> },
 }
 
 impl From<InvalidParameter> for Fault {

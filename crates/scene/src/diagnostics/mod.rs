@@ -146,7 +146,6 @@ impl Faults {
         }
     }
 
-    /// Notes something odd.
     pub(crate) fn warning(&self, place: impl Into<Option<Place>>, fault: Fault) {
         self.note(Severity::Warning, place.into(), fault);
     }

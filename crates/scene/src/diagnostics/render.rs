@@ -122,7 +122,6 @@ fn one(renderer: &Renderer, diagnostic: &Diagnostic, width: usize) -> String {
     renderer.render(&[group])
 }
 
-/// Columns before a message.
 const LEAD: usize = "warning: ".len();
 /// Columns before its help or a note, in texts of up to 999 lines.
 const INNER_LEAD: usize = "    = help: ".len();

@@ -18,7 +18,6 @@ pub(crate) type Make<'m, T> = dyn Fn(&[Value]) -> Result<T, InvalidParameter> + 
 /// Reads things of the kinds in the registers.
 #[derive(Clone, Copy)]
 pub(crate) struct KindReader<'d> {
-    /// Reads their quantities.
     pub(crate) quantities: Quantities<'d>,
     /// Dimension of amplitudes.
     pub(crate) driven: Dimension,

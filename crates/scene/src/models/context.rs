@@ -39,7 +39,6 @@ pub(super) struct Site<'d> {
     pub(super) item: &'d Item,
     /// What the table is, for messages.
     pub(super) owner: Cow<'static, str>,
-    /// Where its name stands.
     pub(super) place: Place,
     pub(super) document: usize,
     /// What becomes of its values.
@@ -77,9 +76,7 @@ impl<'d> Site<'d> {
 
 /// Reads what stands beside the law of a model.
 pub(super) struct ContextReader<'d> {
-    /// The documents.
     pub(super) library: &'d Library,
-    /// Where errors go.
     pub(super) faults: &'d Faults,
 }
 
@@ -258,7 +255,6 @@ impl<'d> ContextReader<'d> {
     }
 }
 
-/// What a shift is.
 fn expected() -> String {
     let example = SHIFTS.first().map_or_else(String::new, |kind| {
         format!("{{ {} = {} }}", kind.word, Example::PLAIN.value(kind.parameters))

@@ -27,7 +27,6 @@ use crate::{
     },
 };
 
-/// Reads such laws.
 pub(super) struct LawReader<'d> {
     library: &'d Library,
     faults: &'d Faults,
@@ -152,7 +151,6 @@ fn is_shift(context: Context) -> bool {
 
 /// Reads named forms; their depth is that of the register.
 struct FormReader<'d> {
-    /// Reads their quantities.
     quantities: Quantities<'d>,
 }
 

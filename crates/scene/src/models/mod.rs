@@ -114,7 +114,6 @@ impl Pads {
 
 /// One way down into a model.
 struct Descent {
-    /// Tables that are open.
     levels: usize,
     /// Models that have been entered by name and not left yet.
     open: Vec<Reference>,

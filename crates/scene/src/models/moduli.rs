@@ -19,7 +19,6 @@ use crate::{
 
 /// Key of what the moduli of a material are.
 pub(super) const MODULI: &str = "moduli";
-/// Key of Poisson's ratio.
 pub(super) const POISSON: &str = "poisson";
 /// What moduli may be: tensile or compressive with free sides, or those of simple shear.
 const KINDS: [&str; 2] = ["compression", "shear"];

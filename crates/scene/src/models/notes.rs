@@ -23,7 +23,7 @@ pub struct ModelNote {
 pub enum Remark {
     /// How near a model comes to its description.
     Composite {
-        /// That.
+        /// Its remark.
         note: CompositeNote,
         /// By what its times are multiplied afterwards, where they are.
         factor: Option<f64>,

@@ -15,7 +15,6 @@ struct Usual {
     dimension: Dimension,
     /// The SI unit in which a bare number counts; none of a pure number.
     unit: &'static str,
-    /// The usual magnitudes.
     range: RangeInclusive<f64>,
     /// The units that are probably meant below and above the range; none where it is just odd.
     meant: [&'static str; 2],

@@ -37,9 +37,7 @@ pub(crate) struct Known {
 /// What stands for a name: a text or number, and its place.
 #[derive(Debug, Clone)]
 pub(crate) struct Definition {
-    /// As written.
     pub(crate) text: String,
-    /// Where it stands.
     pub(crate) place: Place,
 }
 
@@ -78,9 +76,7 @@ fn pad_in_material_help(in_model: Dimension) -> String {
 /// Reads quantities with the names that hold in one document.
 #[derive(Clone, Copy)]
 pub(crate) struct Quantities<'d> {
-    /// Named values.
     pub(crate) values: &'d Values,
-    /// Where errors go.
     pub(crate) faults: &'d Faults,
     /// Whether they are displacements of a node over time.
     pub(crate) is_motion: bool,
@@ -145,7 +141,6 @@ impl<'d> Quantities<'d> {
         Self { subject: Subject::Angle(key), ..self }
     }
 
-    /// Those of a key.
     pub(crate) fn of(self, key: &'d str) -> Self {
         Self { subject: Subject::Key(key), ..self }
     }

@@ -59,7 +59,6 @@ pub enum ScatterFault {
 }
 
 impl ScatterFault {
-    /// What to write.
     pub(crate) fn help(&self) -> String {
         match self {
             Self::Computed { .. } => {

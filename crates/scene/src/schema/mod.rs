@@ -33,45 +33,20 @@ pub fn schema() -> Value {
         "type": "object",
         "properties": {
             "title": { "type": "string", "description": "what the scene is" },
-            "values": {
-                "description": "named values, usable wherever a quantity is expected",
-                "type": "object",
-                "additionalProperties": { "type": ["number", "string"] },
-            },
-            "models": {
-                "description": "two-terminal models, by name",
-                "type": "object",
-                "additionalProperties": reference("model"),
-            },
-            "materials": {
-                "description": "laws of stress over strain, which become pads by thickness and area",
-                "type": "object",
-                "additionalProperties": reference("material"),
-            },
-            "nodes": {
-                "description": "points with one displacement; `ground` is always there",
-                "type": "object",
-                "additionalProperties": reference("node"),
-            },
-            "elements": {
-                "description": "models between nodes",
-                "type": "object",
-                "additionalProperties": reference("element"),
-            },
+            "values": by_name("named values, usable wherever a quantity is expected", &json!({ "type": ["number", "string"] })),
+            "models": by_name("two-terminal models, by name", &reference("model")),
+            "materials": by_name("laws of stress over strain, which become pads by thickness and area", &reference("material")),
+            "nodes": by_name("points with one displacement; `ground` is always there", &reference("node")),
+            "elements": by_name("models between nodes", &reference("element")),
             "effects": closed(
                 "what acts besides the elements, and only if named",
                 EFFECTS.iter().map(|entry| (entry.word, effect(entry))),
             ),
-            "loads": {
-                "description": "forces on nodes",
-                "type": "object",
-                "additionalProperties": reference("load"),
-            },
-            "measures": {
-                "description": "measures of elements and nodes besides those always reported",
-                "type": "object",
-                "additionalProperties": one_or_many(&reference("measure")),
-            },
+            "loads": by_name("forces on nodes", &reference("load")),
+            "measures": by_name(
+                "measures of elements and nodes besides those always reported",
+                &one_or_many(&reference("measure")),
+            ),
             "limits": limits(),
             "accuracy": accuracy(),
             "run": run(),
@@ -93,40 +68,30 @@ pub fn schema() -> Value {
     })
 }
 
-/// Numbers that scatter together.
+/// A table of things that have names.
+fn by_name(description: &str, schema: &Value) -> Value {
+    json!({ "description": description, "type": "object", "additionalProperties": schema })
+}
+
 fn together() -> Value {
-    json!({
-        "description": "numbers that scatter together, such as those of a fit",
-        "type": "object",
-        "properties": {
-            "together": {
-                "description": "independent causes, and what one standard deviation of each adds to numbers, by \
-                                their names, in parts of them",
-                "type": "array",
-                "items": {
-                    "type": "object",
-                    "additionalProperties": { "type": ["string", "number", "object"] },
-                },
-            },
-        },
-        "additionalProperties": false,
-    })
+    let share = json!({ "type": ["string", "number", "object"] });
+    let causes = json!({
+        "description": "independent causes, and what one standard deviation of each adds to numbers, by their names, \
+                        in parts of them",
+        "type": "array",
+        "items": { "type": "object", "additionalProperties": share },
+    });
+    closed("numbers that scatter together, such as those of a fit", [("together", causes)])
 }
 
 /// The section of a verb.
 fn options_of(verb: &str) -> Value {
-    json!({
-        "description": format!(
-            "options of `dashpot {verb}` by their names, without dashes; those of the command stand above them"
-        ),
-        "type": "object",
-        "additionalProperties": {
-            "anyOf": [
-                { "type": ["string", "number", "boolean"] },
-                { "type": "array", "items": { "type": "string" } },
-            ],
-        },
-    })
+    let description = format!(
+        "options of `dashpot {verb}` by their names, without dashes; those of the command stand above them"
+    );
+    let plain = json!({ "type": ["string", "number", "boolean"] });
+    let list = json!({ "type": "array", "items": { "type": "string" } });
+    by_name(&description, &json!({ "anyOf": [plain, list] }))
 }
 
 fn definitions() -> Value {
@@ -165,63 +130,38 @@ fn definitions() -> Value {
     add("length-function", function(Dimension::LENGTH));
     add("velocity-function", function(Dimension::VELOCITY));
     add("acceleration-function", function(Dimension::ACCELERATION));
-    add(
-        "load",
-        json!({
-            "type": "object",
-            "properties": {
-                "on": { "type": "string", "description": "the node that feels the force" },
-                "force": described_as(reference("force-function"), "positive towards the support"),
-            },
-            "required": ["on", "force"],
-            "additionalProperties": false,
-        }),
-    );
+    let on = described_as(json!({ "type": "string" }), "the node that feels the force");
+    let force = described_as(reference("force-function"), "positive towards the support");
+    let mut load = closed("", [("on", on), ("force", force)]);
+    load["required"] = json!(["on", "force"]);
+    add("load", load);
     add("measure", measure());
     Value::Object(all)
 }
 
 fn node() -> Value {
+    let of = |name: &str, description: &str| described_as(reference(name), description);
+    let velocity = json!({
+        "description": "start velocity: makes it an impactor; a function of time gives its motion",
+        "anyOf": [reference("velocity"), reference("velocity-function")],
+    });
+    let drop = "height of a fall: begins at touch with its speed, sqrt(2 g h); where gravity is on and all that touches \
+                it can part, begins that high above, at rest";
+    let energy =
+        "kinetic energy at the start [J]: makes it an impactor with the speed sqrt(2 E / m)";
+    let position =
+        "where a mass begins, as a displacement: what is between it and others is deformed then";
+    let acceleration =
+        "its acceleration over time, from t = 0 on; it begins at rest, or with `velocity`";
     let properties = [
-        ("mass", described_as(reference("mass"), "mass [kg], zero or positive; none by default")),
-        (
-            "velocity",
-            json!({
-                "description": "start velocity: makes it an impactor; a function of time gives its motion",
-                "anyOf": [reference("velocity"), reference("velocity-function")],
-            }),
-        ),
-        (
-            "drop",
-            described_as(
-                reference("length"),
-                "height of a fall: begins at touch with its speed, sqrt(2 g h); where gravity is on and \
-                 all that touches it can part, begins that high above, at rest",
-            ),
-        ),
-        (
-            "energy",
-            described_as(
-                reference("energy"),
-                "kinetic energy at the start [J]: makes it an impactor with the speed sqrt(2 E / m)",
-            ),
-        ),
-        (
-            "position",
-            described_as(
-                reference("length"),
-                "where a mass begins, as a displacement: what is between it and others is deformed then",
-            ),
-        ),
+        ("mass", of("mass", "mass [kg], zero or positive; none by default")),
+        ("velocity", velocity),
+        ("drop", of("length", drop)),
+        ("energy", of("energy", energy)),
+        ("position", of("length", position)),
         ("fixed", json!({ "const": true, "description": "nothing moves it" })),
-        ("motion", described_as(reference("length-function"), "its displacement over time")),
-        (
-            "acceleration",
-            described_as(
-                reference("acceleration-function"),
-                "its acceleration over time, from t = 0 on; it begins at rest, or with `velocity`",
-            ),
-        ),
+        ("motion", of("length-function", "its displacement over time")),
+        ("acceleration", of("acceleration-function", acceleration)),
     ];
     closed("a point with one displacement", properties)
 }
@@ -266,13 +206,12 @@ fn limits() -> Value {
     table["minProperties"] = json!(1);
     let one = json!({ "anyOf": [{ "enum": words }, level(), table] });
     let one = one_or_many(&one);
-    json!({
-        "description": "what measures may be, by their keys: a quantity is the most, a word a standard",
-        "type": "object",
-        "additionalProperties": {
-            "anyOf": [one.clone(), { "type": "object", "additionalProperties": one }],
-        },
-    })
+    let description =
+        "what measures may be, by their keys: a quantity is the most, a word a standard";
+    by_name(
+        description,
+        &json!({ "anyOf": [one, { "type": "object", "additionalProperties": one }] }),
+    )
 }
 
 fn accuracy() -> Value {

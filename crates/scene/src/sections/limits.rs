@@ -39,7 +39,6 @@ const SAID: Said = Said {
     },
 };
 
-/// Reads the limits.
 pub(crate) fn read_limits(reading: &Reading<'_>, targets: &Targets<'_, '_>) -> Vec<Limit> {
     let mut limits = Vec::new();
     for entry in reading.section("limits") {

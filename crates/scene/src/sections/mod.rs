@@ -45,9 +45,7 @@ use crate::{
 
 /// What the readers of sections share.
 pub(crate) struct Reading<'d> {
-    /// The documents.
     pub(crate) library: &'d Library,
-    /// Where errors go.
     pub(crate) faults: &'d Faults,
     /// Nodes by name, faulty ones included.
     pub(crate) nodes: HashMap<&'d str, NodeId>,
@@ -56,7 +54,6 @@ pub(crate) struct Reading<'d> {
 }
 
 impl<'d> Reading<'d> {
-    /// Nothing read yet.
     pub(crate) fn new(library: &'d Library, faults: &'d Faults) -> Self {
         Self { library, faults, nodes: HashMap::new(), elements: HashMap::new() }
     }

@@ -24,11 +24,9 @@ pub(super) struct Said {
 
 /// What is said of one measure.
 pub(super) struct OfMeasure<'d> {
-    /// Key of the measure.
     pub(super) key: String,
     /// Its kind; `None` where that is faulty.
     pub(super) kind: Option<&'static MeasureEntry>,
-    /// Where that stands.
     pub(super) entry: &'d Entry,
 }
 

@@ -69,9 +69,7 @@ impl Source {
 /// A range of bytes in one of the sources of a reading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Place {
-    /// Index of the source.
     pub(crate) source: u32,
-    /// First byte.
     pub(crate) start: u32,
     /// Byte after the last one.
     pub(crate) end: u32,
@@ -84,7 +82,6 @@ impl Place {
         Self { source, start: byte(span.start), end: byte(span.end) }
     }
 
-    /// The bytes.
     pub(crate) fn span(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }

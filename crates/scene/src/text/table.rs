@@ -10,7 +10,6 @@ use super::{
 };
 use crate::diagnostics::{Faults, fault::Fault};
 
-/// Reads one table.
 pub(crate) struct Table<'d> {
     /// What the table is, for messages: "node `head`".
     pub(crate) owner: String,

@@ -1,6 +1,6 @@
 //! Figures 5 to 20: four curves for the families of a, b, c and d.
 
-use dashpot_plot::{Chart, Direction, Marker, Pattern, ReferenceLine, Series, Stroke};
+use dashpot_plot::{Chart, Direction, Marker, Pattern, ReferenceLine, Series};
 
 use super::{Column, Drawing, Figure};
 use crate::{
@@ -113,23 +113,14 @@ fn figure(number: usize, kind: Kind, family: &Family, curves: &[Vec<[f64; 4]>]) 
     };
     let series = family.members.iter().zip(curves).enumerate().map(|(colour, (member, curve))| {
         let pattern = if member.exceeds() { Pattern::Dashed } else { Pattern::Solid };
-        Series {
-            name: legend(family, member),
-            points: curve.iter().map(of).collect(),
-            stroke: Some(Stroke { colour, pattern }),
-        }
+        Series::drawn(legend(family, member), (colour, pattern), curve.iter().map(of))
     });
     let marker = |member: &Member| {
         let time = member.impact.meets_thickness().filter(|time| *time <= END)?;
         let (x, y) = kind.point(&member.impact, time, member.impact.energy(time));
         Some(Marker { x, y, label: format!("{}: ξ = 1", value(family, member)) })
     };
-    let line = |direction| ReferenceLine {
-        direction,
-        at: 1.0,
-        label: "thickness".to_owned(),
-        colour: None,
-    };
+    let line = |direction| ReferenceLine::new(direction, 1.0, "thickness");
     let lines = match kind {
         Kind::Deformation => vec![line(Direction::Horizontal)],
         Kind::StressStrain => vec![line(Direction::Vertical)],

@@ -15,13 +15,10 @@ use crate::{
     verbs::run::measure_text,
 };
 
-/// Digits of constants.
 const DIGITS: usize = 6;
 
-/// All that was found.
 #[derive(Serialize)]
 pub(super) struct Comparison {
-    /// Version of the program.
     pub(super) dashpot: &'static str,
     /// The two, as they were named.
     pub(super) compared: [String; 2],
@@ -64,7 +61,6 @@ pub(super) struct Constant {
     difference: f64,
 }
 
-/// The worst disagreement.
 #[derive(Serialize)]
 pub(super) struct Worst {
     pub(super) frequency: Option<f64>,
@@ -101,7 +97,6 @@ pub(super) struct Together {
     pub(super) combinations: Vec<String>,
 }
 
-/// A map between parameters.
 #[derive(Serialize)]
 pub(super) struct Map {
     from: Vec<String>,
@@ -164,7 +159,6 @@ impl Comparison {
 }
 
 impl Map {
-    /// From the map itself.
     pub(super) fn of(map: &ParameterMap) -> Self {
         let paths = |own: &[dashpot_rheology::sensitivity::Parameter]| {
             own.iter().map(|own| own.path.clone()).collect()
@@ -188,11 +182,11 @@ impl Map {
             |value: &f64| if value.abs() < 5e-5 { "0".to_owned() } else { format!("{value:.4}") };
         let rows = self.to.iter().zip(&self.relative);
         let caption = "Percent of a parameter of the second for one percent of one of the first";
-        let header = list([""].into_iter().chain(self.from.iter().map(String::as_str)));
+        let header = [""].into_iter().chain(self.from.iter().map(String::as_str));
         let row = |(path, row): (&String, &Vec<f64>)| {
             list([path.clone()].into_iter().chain(row.iter().map(cell)))
         };
-        Table::new(caption, &header, rows.map(row))
+        Table::new(caption, header, rows.map(row))
     }
 }
 

@@ -8,7 +8,6 @@ use crate::{
     numbers::{apart, bound, quantity, share},
 };
 
-/// The verdict in words.
 pub(super) fn sentences(found: &Comparison) -> Vec<String> {
     let mut all = Vec::new();
     if let Some(largest) = found.largest_difference {

@@ -70,14 +70,11 @@ pub(super) fn work(report: &CostReport) -> Table {
 
 /// The cheapest method for each measure at these accuracies.
 pub(super) fn cheapest(report: &CostReport, accuracies: &[f64]) -> Table {
-    let mut header = vec!["cheapest for".to_owned()];
-    header.extend(accuracies.iter().map(|accuracy| wish(*accuracy)));
-    let cell = |places: &[usize], accuracy: f64| match report.cheapest_of(places, accuracy) {
-        Some(own) => match own.rtol {
-            Some(rtol) => format!("{} {rtol:e}", own.method),
-            None => own.method.to_owned(),
-        },
-        None => NONE.to_owned(),
+    let wishes = accuracies.iter().map(|accuracy| wish(*accuracy));
+    let header = ["cheapest for".to_owned()].into_iter().chain(wishes);
+    let cell = |places: &[usize], accuracy: f64| {
+        let own = report.cheapest_of(places, accuracy);
+        own.map_or(NONE.to_owned(), |own| solution(own.method, own.rtol))
     };
     let with_value =
         |own: &&usize| report.measures.get(**own).is_some_and(|measure| measure.value.is_some());
@@ -86,17 +83,13 @@ pub(super) fn cheapest(report: &CostReport, accuracies: &[f64]) -> Table {
         row.extend(accuracies.iter().map(|accuracy| cell(&[at], *accuracy)));
         row
     };
-    let rows = report.asked.iter().filter(with_value).map(row).collect();
-    Table { caption: "The cheapest".to_owned(), header, rows }
+    Table::new("The cheapest", header, report.asked.iter().filter(with_value).map(row))
 }
 
 /// The error of every measure in every solution.
 pub(super) fn measures(report: &CostReport) -> Table {
-    let mut header = vec!["measure".to_owned()];
-    header.extend(report.points.iter().map(|point| match point.rtol {
-        Some(rtol) => format!("{} {rtol:e}", point.method),
-        None => point.method.to_owned(),
-    }));
+    let solutions = report.points.iter().map(|own| solution(own.method, own.rtol));
+    let header = ["measure".to_owned()].into_iter().chain(solutions);
     let row = |(at, own): (usize, &TrueMeasure)| {
         let mut row = vec![own.key.clone()];
         let deviation =
@@ -104,8 +97,13 @@ pub(super) fn measures(report: &CostReport) -> Table {
         row.extend(report.points.iter().map(|point| error(deviation(point))));
         row
     };
-    let rows = report.measures.iter().enumerate().map(row).collect();
-    Table { caption: "Relative error of every measure".to_owned(), header, rows }
+    let rows = report.measures.iter().enumerate().map(row);
+    Table::new("Relative error of every measure", header, rows)
+}
+
+/// A method and its tolerance, where it has one.
+fn solution(method: &str, rtol: Option<f64>) -> String {
+    rtol.map_or(method.to_owned(), |rtol| format!("{method} {rtol:e}"))
 }
 
 /// A time that was measured \[s\].

@@ -63,15 +63,11 @@ impl Wanted {
         if over.is_some() && limit.is_none() {
             let reason =
                 "it is over this range that a limit has to be kept: give one, `--limit \"50 g\"`";
-            return Err(CliError::WrongSetting {
-                name: "--over".to_owned(),
-                reason: reason.to_owned(),
-            });
+            return Err(CliError::setting("--over", reason));
         }
         let time = |flag: &str, text: &str| -> Result<f64, CliError> {
             let own = setting(flag, text.trim(), Dimension::TIME)?;
-            let reason = format!("`{text}` is not above zero");
-            let wrong = || CliError::WrongSetting { name: flag.to_owned(), reason };
+            let wrong = || CliError::setting(flag, format!("`{text}` is not above zero"));
             (own > 0.0).then_some(own).ok_or_else(wrong)
         };
         let between = time("--between", &arguments.between)?;
@@ -141,13 +137,13 @@ impl Wanted {
 /// Where the thickness of the cushion stands in the text.
 fn tunable(tunables: &Tunables, pad: &str) -> Result<usize, CliError> {
     let name = format!("elements.{pad}.thickness");
-    tunables.find(&name).map_err(|_| CliError::WrongSetting {
-        name: "--thickness".to_owned(),
-        reason: format!(
+    let reason = || {
+        format!(
             "the scene has no number for the thickness of `{pad}` that could be varied: write it at the element, \
              `thickness = \"5 cm\"`, or as the name of one of [values]"
-        ),
-    })
+        )
+    };
+    tunables.find(&name).map_err(|_| CliError::setting("--thickness", reason()))
 }
 
 /// The most that the peak may be: that of the command, alone or as a limit of runs is written, or the least one of the
@@ -159,7 +155,7 @@ fn limit(
 ) -> Result<Option<f64>, CliError> {
     let key = format!("{}.{}", platen.body, PeakAcceleration::KIND);
     if let Some(text) = &arguments.limit {
-        let wrong = |reason: String| CliError::WrongSetting { name: "--limit".to_owned(), reason };
+        let wrong = |reason: String| CliError::setting("--limit", reason);
         let low = || wrong(format!("`{text}` is not above zero"));
         if text.contains(['<', '>', '=']) {
             let all = parse_limits(text).map_err(wrong)?;
@@ -196,7 +192,7 @@ fn values(
     dimension: Dimension,
 ) -> Result<Option<Vec<f64>>, CliError> {
     let Some(text) = text else { return Ok(None) };
-    let wrong = |reason: String| CliError::WrongSetting { name: flag.to_owned(), reason };
+    let wrong = |reason: String| CliError::setting(flag, reason);
     let unlike = |fault: Fault| CliError::quantity(flag, fault);
     let unreadable = |error| unlike(Fault::Unreadable { error, expected: dimension });
     let own = Variation::parse(&format!("values={text}")).map_err(|fault| match fault {

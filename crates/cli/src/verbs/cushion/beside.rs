@@ -78,7 +78,7 @@ pub(super) fn creep_table(drawn: &Drawn) -> Table {
         _ => quantity(own, "s", FEW),
     };
     let header = times.iter().map(|own| format!("{}\n%", time(own.0)));
-    let header = list(["stress\nkPa".to_owned()].into_iter().chain(header));
+    let header = ["stress\nkPa".to_owned()].into_iter().chain(header);
     let row = |own: &Creep| {
         let cells = own.crept.iter().map(|(_, strain, _, trust)| {
             let text = percent(*strain, FEW);
@@ -91,19 +91,14 @@ pub(super) fn creep_table(drawn: &Drawn) -> Table {
         });
         list([in_kpa().number(own.stress, FEW)].into_iter().chain(cells))
     };
-    Table {
-        caption: "Compression under the weight".to_owned(),
-        header,
-        rows: list(creep.iter().map(row)),
-    }
+    Table::new("Compression under the weight", header, creep.iter().map(row))
 }
 
 /// The best stresses for drops in a row, by the mean of all but the first.
 pub(super) fn row_table(drawn: &Drawn) -> Table {
     let count = drawn.wanted.asked.row.map_or(0, |own| own.drops);
-    let header = ["height\nmm", "thickness\nmm", "best stress\nkPa", "first\ng"].map(str::to_owned);
     let mean = if count > 2 { format!("mean of 2 to {count}\ng") } else { "second\ng".to_owned() };
-    let header = list(header.into_iter().chain([mean, "last\ng".to_owned()]));
+    let header = ["height\nmm", "thickness\nmm", "best stress\nkPa", "first\ng", &mean, "last\ng"];
     let row = |own: &Curve| {
         let mm = |value: f64| rounded(value * 1e3, "1", DIGITS);
         let usable = own.points.iter().zip(&own.repeated).filter(|own| own.0.is_usable());
@@ -114,9 +109,5 @@ pub(super) fn row_table(drawn: &Drawn) -> Table {
         let cells = [mm(own.height), mm(own.thickness), in_kpa().number(point.stress, FEW)];
         Some(list(cells.into_iter().chain(peaks.map(|own| in_g().number(own, DIGITS)))))
     };
-    Table {
-        caption: "Drops in a row".to_owned(),
-        header,
-        rows: list(drawn.cushion.curves.iter().filter_map(row)),
-    }
+    Table::new("Drops in a row", header, drawn.cushion.curves.iter().filter_map(row))
 }

@@ -22,7 +22,6 @@ use crate::{
 
 /// All points of all curves.
 const TABLE: &str = "cushion.csv";
-/// Its columns of bands.
 const BAND: [&str; 3] =
     ["2.5 % of designs [m/s^2]", "97.5 % of designs [m/s^2]", "designs beyond what is known [1]"];
 /// All points as the stress–energy method sees them.
@@ -137,10 +136,9 @@ fn curve(own: &Curve) -> CushionCurve {
     CushionCurve { name: length(own.thickness), points, floor, best, later, band: list(band) }
 }
 
-/// Everything on one page.
 fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Report {
     let scene = &drawn.scene;
-    let settings = Table::new("Settings", &[], origin::rows(scene));
+    let settings = Table::plain("Settings", origin::rows(scene));
     let verdict = words::lines(drawn).into_iter();
     let verdict = verdict.map(|own| format!("{}: {}", own.label, own.text));
     let remarks = words::notes(drawn).into_iter().chain(said::notes(scene));

@@ -30,7 +30,6 @@ use crate::{
     terminal::Terminal,
 };
 
-/// Columns of labels.
 const LABELS: usize = 11;
 
 /// `cushion`.
@@ -119,7 +118,6 @@ struct Drawn {
     is_csv: bool,
 }
 
-/// Draws cushion curves.
 pub(crate) fn cushion(
     arguments: &CushionArguments,
     terminal: Terminal,

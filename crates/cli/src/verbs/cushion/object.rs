@@ -2,14 +2,14 @@
 
 use dashpot_analysis::Band;
 use dashpot_design::cushion::{
-    Assumed, Best, Creep, Curve, Passing, Reach, Repeated, StressEnergy, Sure, Thinnest, Unmet,
+    Assumed, Best, Creep, Curve, Passing, Reach, Repeated, StressEnergy, Thinnest, Unmet,
 };
 use serde::Serialize;
 
 use super::{Drawn, batches::Batches};
 use crate::{
     origin,
-    output::{VERSION, list, object},
+    output::{list, object},
     said,
 };
 
@@ -23,13 +23,9 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
     let platen = object! {
         body: &own.body, pad: &own.pad, mass: own.mass, stress: own.stress(), area: own.area, gravity: own.gravity, assumed,
     };
-    let work = cushion.work;
     object! {
-        dashpot: VERSION,
-        title: &scene.title,
-        file: &scene.file,
-        sha256: origin::of_text(scene),
-        files: origin::of_files(scene),
+        #[serde(flatten)]
+        head: origin::head(scene),
         unevaluated: &cushion.unevaluated,
         platen,
         limit: wanted.asked.limit,
@@ -39,10 +35,7 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
         scatter: drawn.batches.as_ref().map(scatter),
         creep: list(cushion.creep.iter().map(creep)),
         stress_energy: cushion.stress_energy.as_ref().map(stress_energy),
-        work: object! {
-            points: work.points, instantiated: work.instantiated, estimated: work.estimated, probes: work.probes,
-            scattered: work.scattered, scattered_instantiated: work.scattered_instantiated,
-        },
+        work: cushion.work,
         scene_warnings: said::warning_objects(scene),
         scene_notes: said::note_objects(scene),
     }
@@ -86,22 +79,16 @@ fn passing(Passing { stress, ends }: Passing) -> impl Serialize {
     object! { low: stress[0], high: stress[1], ends: ends.map(Reach::word) }
 }
 
-/// What was drawn.
 fn scatter(Batches { sources, designs, seed }: &Batches) -> impl Serialize {
     object! { designs, seed, sources }
 }
 
-/// Bands point by point.
 fn bands(own: &[Band]) -> impl Serialize {
     let all = |of: fn(&Band) -> Option<f64>| list(own.iter().map(of));
     object! {
         mean: all(|own| own.mean), deviation: all(|own| own.deviation),
         low: all(|own| own.low), high: all(|own| own.high), without: list(own.iter().map(|own| own.without)),
     }
-}
-
-fn sure(Sure { odds, share, thickness }: &Sure) -> impl Serialize {
-    object! { odds, share, thickness }
 }
 
 fn creep(own: &Creep) -> impl Serialize {
@@ -133,6 +120,6 @@ fn thinnest(own: &Thinnest) -> impl Serialize {
         height: own.height,
         thickness: all.map(|own| own.0), peak: all.map(|own| own.1.peak), error: all.map(|own| own.1.error),
         stress: all.map(|own| own.1.stress),
-        is_first: own.is_first, is_open: own.is_open, unmet, lightest, sure: own.sure.as_ref().map(sure),
+        is_first: own.is_first, is_open: own.is_open, unmet, lightest, sure: own.sure,
     }
 }

@@ -252,14 +252,12 @@ fn thinnest(drawn: &Drawn, own: &Thinnest) -> Vec<(&'static str, String)> {
 pub(super) fn table(drawn: &Drawn) -> Table {
     let limit = drawn.wanted.asked.limit;
     let has_floor = drawn.cushion.curves.iter().any(|own| own.floor.is_some());
-    let mut header = list(
-        ["height\nmm", "thickness\nmm", "best stress\nkPa", "peak\ng", "±\n%", "strain\n%"]
-            .map(str::to_owned),
-    );
+    let header =
+        ["height\nmm", "thickness\nmm", "best stress\nkPa", "peak\ng", "±\n%", "strain\n%"];
     let has_bands = drawn.batches.is_some();
-    header.extend(has_bands.then(|| "95 % of designs\ng".to_owned()));
-    header.extend(has_floor.then(|| "floor\ng".to_owned()));
-    header.extend(limit.map(|own| format!("at most {}\nkPa", in_g().text(own, FEW))));
+    let more = [has_bands.then_some("95 % of designs\ng"), has_floor.then_some("floor\ng")];
+    let limited = limit.map(|own| format!("at most {}\nkPa", in_g().text(own, FEW)));
+    let header = header.into_iter().chain(more.into_iter().flatten()).chain(limited.as_deref());
     let stress = drawn.cushion.platen.stress();
     let row = |own: &Curve| {
         let mm = |value: f64| rounded(value * 1e3, "1", DIGITS);
@@ -272,8 +270,8 @@ pub(super) fn table(drawn: &Drawn) -> Table {
         let more = [has_bands.then_some(band), has_floor.then_some(floor), passing];
         list(first.chain(more.into_iter().flatten()))
     };
-    let rows = list(drawn.cushion.curves.iter().map(row));
-    Table { caption: "The best static stress of each curve".to_owned(), header, rows }
+    let rows = drawn.cushion.curves.iter().map(row);
+    Table::new("The best static stress of each curve", header, rows)
 }
 
 fn of_best(Best { point, place }: &Best) -> [String; 4] {

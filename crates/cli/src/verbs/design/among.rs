@@ -45,7 +45,7 @@ impl Among {
                 "of `{text}` each name takes another of the words, such as \
                  \"front.material,back.material=soft,hard\": as many words as names at least"
             );
-            return Err(CliError::WrongSetting { name: "--vary".to_owned(), reason });
+            return Err(CliError::setting("--vary", reason));
         }
         Ok(each)
     }

@@ -21,7 +21,6 @@ use crate::{
     verbs::run::{FloorTold, scatter},
 };
 
-/// Columns of labels.
 const LABELS: usize = 15;
 
 /// What was found with one choice of words and steps.
@@ -308,10 +307,7 @@ impl Study for Answer {
                 unevaluated: own.unevaluated, deviations: own.deviations,
                 enough: own.is_enough(),
             }),
-            search: design.map(|own| own.search).map(|own| object! {
-                designs: own.designs, is_grid: own.is_grid, starts: own.starts, agree: own.agree,
-                feasible: own.feasible, solved: own.solved,
-            }),
+            search: design.map(|own| own.search),
         }
     }
 }

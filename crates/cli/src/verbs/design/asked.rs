@@ -22,7 +22,6 @@ const AROUND: [f64; 2] = [0.1, 10.0];
 const AROUND_USUAL: [f64; 2] = [0.5, 2.0];
 const FEW: usize = 3;
 
-/// What is asked for.
 #[derive(Debug, Clone)]
 pub(super) struct Asked {
     pub(super) tunables: Tunables,
@@ -91,7 +90,7 @@ impl Asked {
             and.map(|own| own.name(&asked)).filter(|own| *own == asked.least.name(&asked))
         {
             let reason = format!("`{name}` is made least already");
-            return Err(CliError::WrongSetting { name: "--and".to_owned(), reason });
+            return Err(CliError::setting("--and", reason));
         }
         CHOICES.check(asked.count(), "choices")?;
         let designs = asked.count().saturating_mul(arguments.sample);
@@ -146,13 +145,11 @@ impl Asked {
                 format!("{}..{high}", low.split(' ').next().unwrap_or_default())
             },
         );
-        CliError::WrongSetting {
-            name: "--vary".to_owned(),
-            reason: format!(
-                "`{name}` is given no values: write its bounds, as in \"{name}={bounds}\", or what it may be, one by one \
-                 with commas"
-            ),
-        }
+        let reason = format!(
+            "`{name}` is given no values: write its bounds, as in \"{name}={bounds}\", or what it may be, one by one with \
+             commas"
+        );
+        CliError::setting("--vary", reason)
     }
 
     fn add(
@@ -165,7 +162,7 @@ impl Asked {
         let [low, high] = bounds;
         if !(low < high && low.is_finite() && high.is_finite()) {
             let reason = format!("`{}` has no room between {low} and {high}", named.0);
-            return Err(CliError::WrongSetting { name: flag.to_owned(), reason });
+            return Err(CliError::setting(flag, reason));
         }
         self.numbers.push(Varied::of(&self.tunables, named, bounds, of_command));
         Ok(())
@@ -180,7 +177,7 @@ impl Asked {
             (None, None) if self.tunables.find(name).is_ok() => {
                 let reason =
                     format!("`{name}` does not vary: give its bounds, `--vary \"{name}=…\"`");
-                Err(CliError::WrongSetting { name: flag.to_owned(), reason })
+                Err(CliError::setting(flag, reason))
             }
             (None, None) => Ok(Least::Measure(name.to_owned())),
         }

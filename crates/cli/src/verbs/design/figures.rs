@@ -2,7 +2,7 @@
 
 use dashpot_design::optimum::{Design, Looked, Requirement, along};
 use dashpot_plot::{
-    Chart, Direction, Map, MapLimit, Marker, Pattern, ReferenceLine, Scale, Series, Side, Stroke,
+    Chart, Direction, Map, MapLimit, Marker, Pattern, ReferenceLine, Scale, Series, Side,
 };
 
 use super::{
@@ -83,21 +83,15 @@ pub(super) fn front(answer: &Answer, best: &Design) -> Option<Chart> {
     let (x, x_label) = axis_of(asked, &asked.least, best, largest(0));
     let (y, y_label) = axis_of(asked, and, best, largest(1));
     let points: Vec<(f64, f64)> = list(pairs().map(|own| (x.of(own[0]), y.of(own[1]))));
-    let stroke = |pattern| Some(Stroke { colour: 0, pattern });
     // Between designs of different choices there is nothing.
     let parts = answer.front.chunk_by(|one, other| one.choice == other.choice);
     let mut at = 0;
     let lines = parts.map(|part| {
-        let points = points[at..at + part.len()].to_vec();
         at += part.len();
-        Series { name: String::new(), points, stroke: stroke(Pattern::Solid) }
+        Series::drawn("", (0, Pattern::Solid), points[at - part.len()..at].to_vec())
     });
     let lines: Vec<Series> = list(lines);
-    let found = Series {
-        name: "designs".to_owned(),
-        points: points.clone(),
-        stroke: stroke(Pattern::Points),
-    };
+    let found = Series::drawn("designs", (0, Pattern::Points), points.clone());
     Some(Chart {
         title: format!("The least {} for its {}", asked.least.name(asked), and.name(asked)),
         note: title(&answer.scene).to_owned(),
@@ -135,12 +129,6 @@ pub(super) fn limits(answer: &Answer, best: &Design, number: usize) -> Option<Ch
         is_drawn.then(|| Series::new(what(asked, kept), points))
     });
     let series: Vec<Series> = list(series);
-    let line = |direction, at: f64, label: &str| ReferenceLine {
-        direction,
-        at,
-        label: label.to_owned(),
-        colour: None,
-    };
     let found = best.values[number] / own.one;
     (!series.is_empty()).then(|| Chart {
         title: format!("What holds {}", own.name),
@@ -150,8 +138,8 @@ pub(super) fn limits(answer: &Answer, best: &Design, number: usize) -> Option<Ch
         y_label: "used of what is allowed (%)".to_owned(),
         series,
         lines: vec![
-            line(Direction::Horizontal, 100.0, "limit"),
-            line(Direction::Vertical, found, "best"),
+            ReferenceLine::new(Direction::Horizontal, 100.0, "limit"),
+            ReferenceLine::new(Direction::Vertical, found, "best"),
         ],
         ..Chart::default()
     })

@@ -110,7 +110,7 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
         .filter(|own| matches!(own.label, "BEST" | "NONE" | "PASS" | "FAIL" | "UNDECIDED"));
     let verdict = list(verdict.map(|own| format!("{}: {}", own.label, own.text)));
     let rows = lines.iter().map(|own| vec![own.label.to_owned(), own.text.clone()]);
-    let told = Table::new("What was found", &[], rows);
+    let told = Table::plain("What was found", rows);
     let scattered = best.runs.iter().filter_map(scatter::table);
     let notes = Table::list("Remarks", said::notes(&answer.scene));
     let tables =
@@ -124,7 +124,7 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
         tables: list(tables.filter(|own| !own.rows.is_empty())),
         network: sketch::figure(&answer.scene),
         figures,
-        details: vec![Table::new("Settings", &[], asked.chain(origin::rows(&answer.scene)))],
+        details: vec![Table::plain("Settings", asked.chain(origin::rows(&answer.scene)))],
         scene_text: answer.text().to_owned(),
     }
 }

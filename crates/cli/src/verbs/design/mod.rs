@@ -131,20 +131,17 @@ pub(crate) struct DesignArguments {
 impl DesignArguments {
     /// Whether it is said what varies, and what is made least.
     fn check(&self) -> Result<(), CliError> {
-        let wrong = |name: &str, reason: &str| {
-            let (name, reason) = (name.to_owned(), reason.to_owned());
-            Err(CliError::WrongSetting { name, reason })
+        let (name, reason) = match self {
+            Self { solve_for: Some(_), .. } => return Ok(()),
+            _ if self.vary.is_empty() => {
+                ("--vary", "say what may vary, as in \"liner.thickness=10..60 mm\"")
+            }
+            Self { least: None, .. } => {
+                ("--least", "say what is made least: one of what varies, or a measure")
+            }
+            _ => return Ok(()),
         };
-        if self.solve_for.is_some() {
-            return Ok(());
-        }
-        if self.vary.is_empty() {
-            return wrong("--vary", "say what may vary, as in \"liner.thickness=10..60 mm\"");
-        }
-        if self.least.is_none() {
-            return wrong("--least", "say what is made least: one of what varies, or a measure");
-        }
-        Ok(())
+        Err(CliError::setting(name, reason))
     }
 
     fn effort(&self) -> Effort {
@@ -153,7 +150,6 @@ impl DesignArguments {
     }
 }
 
-/// Searches the best design.
 pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<Status, CliError> {
     let input = Input::of(arguments.scene.scene.as_deref())?;
     let merged = SECTION.merged(&input)?;
@@ -241,12 +237,8 @@ fn check_posed(arguments: &DesignArguments, posing: &Posing<'_>) -> Result<(), C
         return Err(CliError::NothingToKeep { name: asked.least.name(asked).to_owned() });
     }
     if arguments.robust.is_some() && !posing.has_scatter() {
-        return Err(CliError::WrongSetting {
-            name: "--robust".to_owned(),
-            reason: "no number of the scene has scatter: write one with its standard deviation, such as \
-                     \"20 ± 2 MN/m\""
-                .to_owned(),
-        });
+        let reason = "no number of the scene has scatter: write one with its standard deviation, such as \"20 ± 2 MN/m\"";
+        return Err(CliError::setting("--robust", reason));
     }
     Ok(())
 }

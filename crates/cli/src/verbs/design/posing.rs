@@ -21,7 +21,6 @@ use crate::{
     verbs::run::scatter::ScatterArguments,
 };
 
-/// What poses the scene.
 pub(super) struct Posing<'a> {
     /// The scenes of the tests.
     pub(super) scenes: &'a [TestScene],

@@ -205,7 +205,7 @@ impl TestScene {
 }
 
 fn wrong(reason: String) -> CliError {
-    CliError::WrongSetting { name: FLAG.to_owned(), reason }
+    CliError::setting(FLAG, reason)
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ fn sensitivities(asked: &Asked, best: &Design) -> Table {
                 shown.iter().map(|at| cell(slope.values[*at], *value, best.kept[*at].value));
             list([own.name.clone()].into_iter().chain(aim).chain(others))
         });
-    Table { caption: "Sensitivities".to_owned(), header, rows: list(rows) }
+    Table::new("Sensitivities", header, rows)
 }
 
 fn signed(part: f64) -> String {
@@ -67,7 +67,7 @@ fn signed(part: f64) -> String {
 /// The front of two aims, from the least of the first one.
 fn front(answer: &Answer) -> Table {
     let asked = &answer.asked;
-    let Some(and) = &asked.and else { return Table::new("Front", &[], []) };
+    let Some(and) = &asked.and else { return Table::plain("Front", []) };
     let both = [&asked.least, and];
     let names = both.iter().map(|own| own.name(asked).to_owned());
     let is_other = |name: &str| both.iter().all(|own| own.name(asked) != name);
@@ -87,7 +87,7 @@ fn front(answer: &Answer) -> Table {
         let held = active(asked, design).join(", ");
         list(aims.chain(further).chain(chosen).chain([held]))
     });
-    Table { caption: "Front".to_owned(), header: list(header), rows: list(rows) }
+    Table::new("Front", header, rows)
 }
 
 /// What each choice of words and steps comes to, the best first.
@@ -113,11 +113,7 @@ fn choices(answer: &Answer) -> Table {
         };
         list(chosen.chain(numbers).chain(least.as_ref().map(|_| aim)).chain([verdict]))
     };
-    Table {
-        caption: "Choices".to_owned(),
-        header: list(header),
-        rows: list(answer.found.iter().map(row)),
-    }
+    Table::new("Choices", header, answer.found.iter().map(row))
 }
 
 fn verdict(design: &Design) -> String {

@@ -54,5 +54,5 @@ fn total(text: &str, numbers: &[Varied]) -> Result<Total, CliError> {
 }
 
 fn wrong(reason: String) -> CliError {
-    CliError::WrongSetting { name: FLAG.to_owned(), reason }
+    CliError::setting(FLAG, reason)
 }

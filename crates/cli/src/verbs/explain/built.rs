@@ -20,7 +20,7 @@ pub(super) fn tables(scene: &Scene) -> [Table; 5] {
 }
 
 fn rows(caption: &str, rows: impl Iterator<Item = Vec<String>>) -> Table {
-    Table::new(caption, &[], first_rows(rows.collect()))
+    Table::plain(caption, first_rows(rows.collect()))
 }
 
 fn nodes(scene: &Scene) -> Table {
@@ -163,7 +163,6 @@ fn scattered(scene: &Scene) -> Table {
     rows("Numbers with scatter, used as their means; `run` samples them", described)
 }
 
-/// The unknowns by name.
 pub(super) fn unknowns(scene: &Scene) -> Table {
     let system = &scene.assembly.system;
     let described = system.unknowns.iter().map(|unknown| {

@@ -17,10 +17,8 @@ use crate::{
     output::Text,
 };
 
-/// What the numbers mean.
 const MATTERS: &str =
     "The number measures how much it matters, on or off: little where it is far below 1.";
-/// What the columns mean.
 const MEANING: &str = "What each adds, or would add with its defaults: unknowns, modes as a \
                        factor, and entries of the matrices and guards at the start, where it \
                        may change which phases hold; `2 fewer` says that it removes two.";

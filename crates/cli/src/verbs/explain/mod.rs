@@ -58,10 +58,7 @@ pub(crate) fn explain(
     let input = Input::of(path.as_deref())?;
     if let Some(models) = read_models_of(&input, &values.set, terminal)? {
         if arguments.out.is_some() {
-            return Err(CliError::WrongSetting {
-                name: "--out".to_owned(),
-                reason: "a file of models has no network to draw".to_owned(),
-            });
+            return Err(CliError::setting("--out", "a file of models has no network to draw"));
         }
         let rows = written(input.text()?, &values.set);
         print(&Text::written(terminal, |text| {
@@ -149,7 +146,7 @@ fn written(scene: &str, set: &[(String, String)]) -> Table {
         last = row.section;
     }
     close(&mut rows, count);
-    Table::new("As it is written", &[], rows)
+    Table::plain("As it is written", rows)
 }
 
 fn solving(scene: &Scene, is_verbose: bool) -> Result<Vec<(&'static str, String)>, CliError> {

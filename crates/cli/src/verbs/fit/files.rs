@@ -110,5 +110,5 @@ fn with_rows(tables: impl Iterator<Item = Table>) -> Vec<Table> {
 
 fn settings(asked: &[(&'static str, String)], further: Vec<Vec<String>>) -> Table {
     let rows = asked.iter().map(|(name, value)| vec![(*name).to_owned(), value.clone()]);
-    Table::new("Settings", &[], rows.chain(further))
+    Table::plain("Settings", rows.chain(further))
 }

@@ -18,7 +18,6 @@ use crate::{
     terminal::Tone,
 };
 
-/// A laboratory test.
 pub(super) struct Test {
     design: Laboratory,
     /// The measures of the real scene, and those of the laboratory with its own gravity, at the scale

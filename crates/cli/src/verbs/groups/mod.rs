@@ -29,7 +29,6 @@ use crate::{
     terminal::{Terminal, note},
 };
 
-/// Digits of groups.
 const DIGITS: usize = 6;
 
 /// `groups`.
@@ -80,7 +79,6 @@ fn within(text: &str) -> Result<f64, String> {
     }
 }
 
-/// All that is told.
 struct GroupsStudy {
     /// What the groups are of.
     scene: String,

@@ -15,7 +15,6 @@ use crate::{
     verbs::run::measure_text,
 };
 
-/// Digits of measures.
 const MEASURED: usize = 5;
 
 /// The measures, where what cannot be told from zero is zero.

@@ -22,7 +22,6 @@ use crate::{
 /// So many groups are moved one at a time; more would take long and say little.
 const MOST_ALONE: usize = 12;
 
-/// Two scenes.
 pub(super) struct Pair {
     compared: [String; 2],
     pub(super) found: Similarity,
@@ -30,7 +29,6 @@ pub(super) struct Pair {
     measures: Vec<Measured>,
     /// By how much each group that differs moves the measures of the first by itself.
     alone: Vec<Alone>,
-    /// What was not compared.
     left_out: Vec<String>,
     /// Elements whose parts have thicknesses of their own in one of both only.
     other_pads: Vec<String>,
@@ -113,7 +111,6 @@ impl Pair {
         }
     }
 
-    /// The groups that differ.
     fn different(&self) -> Table {
         let row = |group_pair: &GroupPair| {
             let [one, other] = group_pair.values.map(|value| significant(value, DIGITS));

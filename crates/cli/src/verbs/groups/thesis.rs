@@ -17,7 +17,6 @@ pub(super) struct Thesis {
 }
 
 impl Thesis {
-    /// Those of an impact.
     pub(super) fn of(impact: FourParameterImpact) -> Self {
         Self { groups: impact.groups(), impact }
     }
@@ -85,7 +84,6 @@ impl Thesis {
         }
     }
 
-    /// The groups.
     pub(super) fn table(&self) -> Table {
         let row = |(name, formula, value): (&str, &str, f64)| {
             let symbol = match name {

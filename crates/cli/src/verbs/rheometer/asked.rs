@@ -79,7 +79,6 @@ pub(super) struct Given<'a> {
 /// A test with one value for each parameter.
 #[derive(Clone, Default)]
 pub(super) struct Variant<'a> {
-    /// What was given.
     pub(super) given: Vec<(&'a str, f64)>,
     /// What tells it from others of the same test; empty where it is the only one.
     pub(super) label: String,

@@ -16,9 +16,7 @@ use crate::{
 /// Digits of what was measured.
 const DIGITS: usize = 4;
 
-/// A measured loop.
 pub(super) struct MeasuredLoop {
-    /// The file.
     pub(super) file: String,
     /// (Deformation \[m\], force \[N\]) or (strain \[1\], stress \[Pa\]), row by row.
     pub(super) points: Vec<(f64, f64)>,
@@ -80,13 +78,12 @@ pub(super) fn deviations(tests: &[Made], units: Units) -> Option<Table> {
         row("the model deviates by", &|own| percent_signed(areas(own)[1] / areas(own)[0] - 1.0)),
         row("rms of the difference, of the measured peak", &|own| share(own.rms)),
     ];
-    let labels: Vec<&str> = [""].into_iter().chain(known.iter().map(|own| own.0)).collect();
     let has_labels = known.iter().any(|own| !own.0.is_empty());
+    let labels = [""].into_iter().chain(known.iter().map(|own| own.0)).filter(|_| has_labels);
     let caption = format!("Beside the measured loop, at {} rows", first.rows);
-    Some(Table::new(caption, if has_labels { &labels } else { &[] }, rows))
+    Some(Table::new(caption, labels, rows))
 }
 
-/// The same for programs.
 pub(super) fn object(own: &Deviation) -> impl Serialize {
     object! {
         rows: own.rows,

@@ -44,7 +44,6 @@ use crate::{
     text::{self, columns, table, wrapped},
 };
 
-/// Lines of a plot.
 const PLOT_HEIGHT: usize = 12;
 /// Unit of a strain rate.
 const STRAIN_RATE: &str = "1/s";
@@ -175,7 +174,6 @@ impl Tested {
     }
 }
 
-/// Tests a model.
 pub(crate) fn rheometer(
     arguments: &RheometerArguments,
     terminal: Terminal,

@@ -27,7 +27,7 @@ pub(super) fn page(tested: &Tested, figures: Vec<ReportFigure>) -> Report {
     let version = [("dashpot".to_owned(), VERSION.to_owned())];
     let settings = version.iter().chain(&tested.set);
     let settings = settings.map(|(name, value)| vec![name.clone(), value.clone()]);
-    let settings = Table::new("Settings", &[], settings);
+    let settings = Table::plain("Settings", settings);
     Report {
         title: tested.word.clone(),
         warnings: Vec::new(),

@@ -92,8 +92,7 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
     });
     let words = [("model", has_model), ("network", has_computed), ("error", has_error)];
     let words = words.into_iter().filter(|own| own.1).map(|own| own.0);
-    let header: Vec<&str> = [""].into_iter().chain(words).collect();
-    Table::new("", if has_computed { &header } else { &[] }, rows)
+    Table::new("", [""].into_iter().chain(words).filter(|_| has_computed), rows)
 }
 
 /// The figures of tests that differ in their parameters, side by side: those of the network, or else of the
@@ -115,8 +114,7 @@ pub(super) fn side_by_side(tests: &[Made], common: usize, units: Units) -> Table
         [units.label(name)].into_iter().chain(all.iter().map(cell)).collect()
     });
     let labels = tests.iter().map(|made| made.label.as_str());
-    let header: Vec<&str> = [""].into_iter().chain(labels).collect();
-    Table::new("", &header, rows)
+    Table::new("", [""].into_iter().chain(labels), rows)
 }
 
 /// A value of a figure, with the digits that its error justifies; none where there is none.

@@ -60,7 +60,6 @@ const FLAG: &str = "--measured";
 pub(in crate::verbs) struct Output {
     /// Name of the element or mass.
     name: String,
-    /// Which signal.
     pub(in crate::verbs) of: Of,
 }
 
@@ -87,17 +86,14 @@ impl Output {
         format!("{}.{}", self.name, self.of.word())
     }
 
-    /// What it measures.
     pub(in crate::verbs) fn dimension(&self) -> Dimension {
         dimension(self.of)
     }
 
-    /// Its SI unit.
     pub(in crate::verbs) fn unit(&self) -> &'static str {
         dimension(self.of).named().map_or("1", |own| own.1)
     }
 
-    /// All of a network.
     fn all(assembly: &Assembly) -> Vec<Self> {
         let elements = assembly.connections.iter().flat_map(|own| {
             let force = own.force.map(|_| Of::Force);
@@ -149,15 +145,12 @@ impl Output {
     }
 }
 
-/// A measured curve.
 #[derive(Debug, Clone)]
 pub(in crate::verbs) struct MeasuredCurve {
     /// The file, as it is named.
     pub(in crate::verbs) file: String,
     pub(super) sha256: String,
-    /// Name of the column.
     pub(super) column: String,
-    /// What it measured.
     pub(in crate::verbs) output: Output,
     /// (Time \[s\], value in SI units), moved.
     pub(in crate::verbs) rows: Vec<(f64, f64)>,

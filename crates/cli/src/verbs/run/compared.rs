@@ -21,7 +21,6 @@ use crate::{
     },
 };
 
-/// Digits of scores.
 const DIGITS: usize = 3;
 
 /// What is read off both curves over the time that they have in common, with straight lines between the same samples.
@@ -198,9 +197,9 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
     } else {
         list(all.iter().map(|own| own.name))
     };
-    let header = list(["", "measured", "error"].into_iter().chain(names));
+    let header = ["", "measured", "error"].into_iter().chain(names);
     let caption = format!("{}: what both say at the same times", first.curve.output.key());
-    Some(Table::new(caption, &header, own.readings().filter_map(row)))
+    Some(Table::new(caption, header, own.readings().filter_map(row)))
 }
 
 /// The same for programs, in SI units.

@@ -52,7 +52,6 @@ struct Output {
 }
 
 impl<'r> Run<'r> {
-    /// A run alone.
     pub(super) fn of(report: &'r RunReport, floor: Option<&floor::Told>) -> Self {
         let floor = floor.map(|own| own.object(report));
         Self { report, curves: None, at: None, measured: Vec::new(), floor }

@@ -262,14 +262,9 @@ impl Designs {
             let name = format!("{} {}", limit.key, limits::stated(limit, kind));
             [name].into_iter().chain(self.best().map(cell)).collect()
         };
-        Table {
-            caption: "Limits".to_owned(),
-            header: {
-                let names = self.best().map(|(own, _)| own.heading.clone());
-                [self.side().heading("limit")].into_iter().chain(names).collect()
-            },
-            rows: list(all.iter().map(row)),
-        }
+        let names = self.best().map(|(own, _)| own.heading.clone());
+        let header = [self.side().heading("limit")].into_iter().chain(names);
+        Table::new("Limits", header, all.iter().map(row))
     }
 
     /// What the scenes are: once what all are, else one by one.
@@ -314,7 +309,6 @@ impl Designs {
         list(self.designs.iter().map(of)).join("\n")
     }
 
-    /// How each was solved.
     fn solved(&self) -> Table {
         let row = |(own, run): (&Design, &RunReport)| {
             let worst = run.worst_relative_error().filter(|worst| worst.is_finite());

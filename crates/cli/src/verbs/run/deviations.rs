@@ -113,10 +113,9 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
     ];
     let rows = rows.into_iter().chain(compared::scores(all));
     let names = all.iter().map(|own| own.name);
-    let header: Vec<&str> = [""].into_iter().chain(names).collect();
+    let header = [""].into_iter().chain(names).filter(|_| all.len() > 1);
     let what = if is_one { curve.output.key() } else { "Outputs".to_owned() };
     let caption = format!("{what} beside `{}` of {}", curve.column, curve.file);
-    let header = if all.len() > 1 { &header[..] } else { &[] };
     Some(Table::new(caption, header, output.into_iter().chain(rows)))
 }
 

@@ -93,5 +93,5 @@ pub(super) fn energy_table(run: &RunReport) -> Table {
     line("dissipated in the others".to_owned(), &|at| sum(&|element| dissipated(at, element)));
     let missing = ledgers.iter().map(|(_, ledger)| share(ledger.closure()));
     rows.push(["balance error".to_owned()].into_iter().chain(missing).collect());
-    Table { caption: "Energy".to_owned(), header, rows }
+    Table::new("Energy", header, rows)
 }

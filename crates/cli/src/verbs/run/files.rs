@@ -34,7 +34,6 @@ pub(super) const EVENTS: &str = "events.csv";
 const SCENE: &str = "scene-as-run.toml";
 /// The drawing of the network.
 const DRAWING: &str = "network.svg";
-/// Everything on one page.
 pub(super) const PAGE: &str = "report.html";
 /// Figures show at least so many points, and at most so many.
 const POINTS: (usize, usize) = (4001, 20_001);
@@ -184,11 +183,8 @@ fn page(answer: &Answer) -> Report {
     tables.extend(answer.best().map(energy_table));
     let why = reasons(answer).into_iter().map(|(method, why)| vec![method, why]);
     let failed = answer.failed.iter().map(|(method, error)| format!("{method} failed: {error}"));
-    let details = vec![
-        solving_table(answer),
-        Table::new("Why these methods", &[], why),
-        settings_table(answer),
-    ];
+    let details =
+        vec![solving_table(answer), Table::plain("Why these methods", why), settings_table(answer)];
     let changes = answer.changes.description().into_iter();
     let verdict = verdict(answer).into_iter();
     let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));

@@ -68,7 +68,6 @@ use crate::{
     verbs::check::undefined,
 };
 
-/// Lines of the plot.
 const PLOT_HEIGHT: usize = 14;
 /// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.
 const PLOT_POINTS: usize = 8001;
@@ -164,7 +163,6 @@ pub(crate) struct RunArguments {
 
 /// A scene and its runs.
 struct Answer {
-    /// What was solved.
     pub(super) scene: Scene,
     /// What the command line said in place of the scene.
     pub(super) changes: Changes,
@@ -180,7 +178,6 @@ struct Answer {
     pub(super) beside: Vec<Vec<Beside>>,
     /// What no pad can beat, where that is asked for.
     pub(super) floor: Option<floor::Told>,
-    /// Whether curves are plotted.
     plot: When,
     /// What is shown and written besides.
     pub(super) wishes: Wishes,
@@ -193,7 +190,6 @@ struct Wishes {
     curves: bool,
     /// Times \[s\] at which all outputs are shown, rising.
     at: Vec<f64>,
-    /// What a folder holds.
     written: Vec<Written>,
 }
 

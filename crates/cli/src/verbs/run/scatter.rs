@@ -273,7 +273,7 @@ pub(crate) fn table(run: &RunReport) -> Option<Table> {
         let share = (!is_whole).then(|| covered(band));
         row(run, band).into_iter().chain(share).collect()
     });
-    Some(Table::new("Scatter", &header.collect::<Vec<_>>(), rows))
+    Some(Table::new("Scatter", header, rows))
 }
 
 /// Between which values of each measure 95 % of the designs drawn lie, of several scenes side by side; nothing where
@@ -310,11 +310,7 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
     let first = side.heading("95 % of its sample");
     let header = [first].into_iter().chain(names).chain(["unit".to_owned()]);
     let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
-    (!rows.is_empty()).then(|| Table {
-        caption: "Scatter".to_owned(),
-        header: header.collect(),
-        rows,
-    })
+    (!rows.is_empty()).then(|| Table::new("Scatter", header, rows))
 }
 
 fn row(run: &RunReport, band: &Band) -> Vec<String> {

@@ -46,14 +46,8 @@ pub(super) fn solving_table(answer: &Answer) -> Table {
     let rows: Vec<Vec<String>> = answer.runs.iter().map(row).collect();
     let says_something = |column: usize| rows.iter().any(|row| row[column] != "–");
     let shown: Vec<usize> = (0..header.len()).filter(|&column| says_something(column)).collect();
-    Table {
-        caption: "Solved".to_owned(),
-        header: shown.iter().map(|&column| header[column].to_owned()).collect(),
-        rows: rows
-            .iter()
-            .map(|row| shown.iter().map(|&column| row[column].clone()).collect())
-            .collect(),
-    }
+    let pick = |row: &Vec<String>| shown.iter().map(|&column| row[column].clone()).collect();
+    Table::new("Solved", shown.iter().map(|&column| header[column]), rows.iter().map(pick))
 }
 
 /// What was solved, and why each method was used.
@@ -115,7 +109,7 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     let values = answer.scene.values.iter();
     rows.extend(values.map(|own| (format!("value {}", own.name), value_text(own))));
     let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
-    Table::new("Settings", &[], rows.chain(origin::rows(&answer.scene)))
+    Table::plain("Settings", rows.chain(origin::rows(&answer.scene)))
 }
 
 /// A named value as it is written; of what is computed its value besides.

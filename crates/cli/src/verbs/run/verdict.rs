@@ -24,7 +24,6 @@ const DEFLECTION: &str = "max. deflection";
 const DIGITS: usize = 4;
 /// Accuracies beyond this are not to be had with double precision.
 const FINEST: f64 = 1e-10;
-/// Digits of a time.
 pub(super) const TIME_DIGITS: usize = 3;
 /// Work from outside is spoken of beyond this part of the impact's energy.
 const LITTLE: f64 = 5e-4;
@@ -46,9 +45,7 @@ const CUT: &str = "; the run ends in contact, so that figures are those so far";
 /// One line of the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Line {
-    /// What it is about.
     pub(crate) label: &'static str,
-    /// What it says.
     pub(crate) text: String,
 }
 

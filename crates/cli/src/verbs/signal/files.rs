@@ -240,7 +240,7 @@ fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {
     let groups = signals.groups();
     let of_all = groups.iter().map(repeats);
     let treated = signals.all.iter().map(|own| Table::list(heading(own), treatment(&own.analysis)));
-    let version = Table::new("Settings", &[], [vec!["dashpot".to_owned(), VERSION.to_owned()]]);
+    let version = Table::plain("Settings", [vec!["dashpot".to_owned(), VERSION.to_owned()]]);
     Report {
         title: format!("Measured: {}", names.join(", ")),
         warnings: words::warnings(signals),

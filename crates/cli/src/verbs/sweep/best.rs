@@ -87,9 +87,5 @@ pub(super) fn best_table(swept: &Swept, designs: &[Design]) -> Table {
         [only] => format!(", by the margin of {}", quantity(&report.columns[*only])),
         _ => ", by the smallest margin to any limit".to_owned(),
     };
-    Table {
-        caption: capital(&(caption.to_owned() + &of)),
-        header: list(header),
-        rows: list(designs.iter().map(row)),
-    }
+    Table::new(capital(&(caption.to_owned() + &of)), header, designs.iter().map(row))
 }

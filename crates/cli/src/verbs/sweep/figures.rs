@@ -1,9 +1,7 @@
 //! What `sweep` draws: lines over one parameter, and maps over two.
 
 use dashpot_analysis::{Bound, Judgement, Limit, Reason, sweep::SweepReport};
-use dashpot_plot::{
-    Chart, Direction, Map, MapLimit, Pattern, ReferenceLine, Scale, Series, Side, Stroke,
-};
+use dashpot_plot::{Chart, Direction, Map, MapLimit, Pattern, ReferenceLine, Scale, Series, Side};
 use dashpot_scene::Variation;
 
 use super::{
@@ -147,10 +145,7 @@ pub(super) fn lines(swept: &Swept, column: usize) -> Chart {
         some => format!(", for {some} of {count} values of {}", parameter(&family.name)),
     });
     let heading = format!("{} over {}{for_each}", capital(&own), parameter(&variations[over].name));
-    let line_at = |at: f64, label: String| {
-        let direction = Direction::Horizontal;
-        ReferenceLine { direction, at, label, colour: None }
-    };
+    let line_at = |at, label: String| ReferenceLine::new(Direction::Horizontal, at, label);
     let pressed = report.columns[column].is_share.then(|| line_at(1.0, PRESSED.to_owned()));
     let limits = limits_of(report, column).map(|limit| {
         line_at(unit.of(limit.bound.level()), words::limit(&report.columns[column], limit))
@@ -196,19 +191,11 @@ fn parted(name: String, points: &[(f64, f64)], open: &[bool], number: usize) -> 
         plain.clear();
     }
     let is_last_open = open.last().is_some_and(|own| *own);
-    let names = if is_last_open { [String::new(), name] } else { [name, String::new()] };
-    let patterns = [Pattern::Solid, Pattern::Dotted];
-    let mut parts = names.into_iter().zip(patterns).zip([plain, dotted]);
-    std::array::from_fn(|_| {
-        parts.next().map_or_else(
-            || Series::new("", Vec::new()),
-            |((name, pattern), points)| Series {
-                name,
-                points,
-                stroke: Some(Stroke { colour: number, pattern }),
-            },
-        )
-    })
+    let [solid, open] = if is_last_open { [String::new(), name] } else { [name, String::new()] };
+    [
+        Series::drawn(solid, (number, Pattern::Solid), plain),
+        Series::drawn(open, (number, Pattern::Dotted), dotted),
+    ]
 }
 
 /// A column over both parameters, with the lines of limits and that on which a padding is pressed to nothing.

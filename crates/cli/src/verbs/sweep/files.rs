@@ -20,7 +20,6 @@ use crate::{
     output::{PAGE, csv, list},
 };
 
-/// Values at all points.
 const TABLE: &str = "sweep.csv";
 /// Heading of the numbers of warnings.
 pub(super) const WARNINGS: &str = "warnings";

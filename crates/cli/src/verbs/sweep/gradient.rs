@@ -21,13 +21,12 @@ use crate::{
     input::title,
     numbers::{Unit, digits, percent_signed, quantity},
     operand::print_notes,
-    origin::{self, Source},
-    output::{Study, Text, VERSION, csv, emit, list},
+    origin,
+    output::{Study, Text, csv, emit, list, object},
     progress::Bar,
     terminal::Terminal,
 };
 
-/// Derivatives at all points.
 pub(super) const TABLE: &str = "gradients.csv";
 /// The unit of a number that is written without one.
 const BARE: &str = "SI unit";
@@ -152,33 +151,14 @@ impl Study for Gradients {
     }
 
     fn object(&self) -> impl Serialize {
-        #[derive(Serialize)]
-        struct Point<'s> {
-            /// The values of what varies, as they are written.
-            at: Vec<String>,
-            #[serde(flatten)]
-            report: &'s GradientReport,
-        }
-        #[derive(Serialize)]
-        struct Object<'s> {
-            dashpot: &'static str,
-            title: &'s Option<String>,
-            file: &'s Option<String>,
-            sha256: String,
-            files: Vec<Source>,
-            varied: Vec<&'s String>,
-            points: Vec<Point<'s>>,
-        }
-        let Self { scene, .. } = self;
         let points = self.reports.iter().enumerate();
-        Object {
-            dashpot: VERSION,
-            title: &scene.title,
-            file: &scene.file,
-            sha256: origin::of_text(scene),
-            files: origin::of_files(scene),
+        object! {
+            #[serde(flatten)]
+            head: origin::head(&self.scene),
             varied: list(self.varied.variations.iter().map(|own| &own.name)),
-            points: list(points.map(|(at, report)| Point { at: self.values(at), report })),
+            points: list(points.map(|(at, report)| object! {
+                at: self.values(at), #[serde(flatten)] report,
+            })),
         }
     }
 
@@ -269,13 +249,13 @@ fn by_number(
     cell: impl Fn(Cell<'_>) -> String,
 ) -> Table {
     let names = report.numbers.iter().map(|own| own.name.as_str());
-    let header = list([first].into_iter().chain(names));
+    let header = [first].into_iter().chain(names);
     let rows = report.measures.iter().chain(&report.events).map(|own| {
         let cells = report.numbers.iter().zip(&own.derivatives);
         let cells = cells.map(|(number, found)| cell((own, number, found)));
         list([own.key.clone()].into_iter().chain(cells))
     });
-    Table::new(caption.to_owned(), &header, rows)
+    Table::new(caption, header, rows)
 }
 
 /// What stands where there is no derivative.

@@ -48,8 +48,8 @@ use crate::{
     input::{Input, title},
     numbers::counted,
     operand::print_notes,
-    origin::{self, Source},
-    output::{Pairs, Study, Text, VERSION, emit, list, object},
+    origin,
+    output::{Pairs, Study, Text, emit, list, object},
     progress::Bar,
     said,
     terminal::{Terminal, note},
@@ -282,7 +282,6 @@ fn of_ends(
     Ok(Diagnostics { list: shown.split_off(before), omitted: 0 })
 }
 
-/// What a parameter takes.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Values<'v> {
@@ -333,25 +332,9 @@ impl Study for Swept {
         notes(self)
     }
 
-    /// Values stand in the order of the points: the last parameter varies fastest.
+    /// Values stand in the order of the points: the last parameter varies fastest; `listed` tells that those of a point
+    /// are of one place, in place of all combinations.
     fn object(&self) -> impl Serialize {
-        #[derive(Serialize)]
-        struct Object<'s, P, W, N> {
-            dashpot: &'static str,
-            title: &'s Option<String>,
-            file: &'s Option<String>,
-            sha256: String,
-            files: Vec<Source>,
-            /// Whether their values at a point are those of one place, in place of all combinations.
-            listed: bool,
-            parameters: P,
-            /// What the command line asks for, in words.
-            asked: Pairs<&'s str, &'s str>,
-            scene_warnings: W,
-            scene_notes: N,
-            #[serde(flatten)]
-            report: &'s SweepReport,
-        }
         let Self { scene, report, .. } = self;
         let parameters = self.varied.variations.iter().zip(&self.varied.matched).enumerate();
         let parameters = list(parameters.map(|(at, (own, &tunable))| {
@@ -362,23 +345,15 @@ impl Study for Swept {
                 values: if own.is_of_words() { Values::Words(&own.words) } else { Values::Numbers(&own.values) },
             }
         }));
-        let listed = self.varied.is_of_rows();
-        let (title, file) = (&scene.title, &scene.file);
-        let (sha256, files) = (origin::of_text(scene), origin::of_files(scene));
-        let asked = self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        let (scene_warnings, scene_notes) =
-            (said::warning_objects(scene), said::note_objects(scene));
-        Object {
-            dashpot: VERSION,
-            title,
-            file,
-            sha256,
-            files,
-            listed,
+        object! {
+            #[serde(flatten)]
+            head: origin::head(scene),
+            listed: self.varied.is_of_rows(),
             parameters,
-            asked,
-            scene_warnings,
-            scene_notes,
+            asked: self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect::<Pairs<_, _>>(),
+            scene_warnings: said::warning_objects(scene),
+            scene_notes: said::note_objects(scene),
+            #[serde(flatten)]
             report,
         }
     }

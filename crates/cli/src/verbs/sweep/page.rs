@@ -100,7 +100,6 @@ fn extremes(swept: &Swept) -> Table {
     Table::new("Lowest and highest", &header, words::told(report).into_iter().map(row))
 }
 
-/// What was asked for.
 fn settings(swept: &Swept) -> Table {
     let form = match swept.varied.form {
         Form::Combined | Form::Mixed(_) => "all combinations",
@@ -114,5 +113,5 @@ fn settings(swept: &Swept) -> Table {
     let asked = swept.asked.iter().map(|(name, value)| (*name, value.clone()));
     let rows = own.into_iter().chain(asked).filter(|own| !own.1.is_empty());
     let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
-    Table::new("Settings", &[], rows.chain(origin::rows(&swept.scene)))
+    Table::plain("Settings", rows.chain(origin::rows(&swept.scene)))
 }

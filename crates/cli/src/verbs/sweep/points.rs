@@ -29,7 +29,7 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
         unit => format!("{}\n{unit}", own.name),
     });
     let measures = told.iter().map(|own| own.name(report));
-    let header = list(names.chain(measures));
+    let header = names.chain(measures);
     let row = |point: usize| {
         let places = swept.varied.places(&swept.grid.places(point)).into_iter().enumerate();
         let own = places.map(|(at, place)| match variations[at].words.get(place) {
@@ -38,7 +38,6 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
         });
         list(own.chain(told.iter().map(|own| own.cell(report, point))))
     };
-    let header = list(header.iter().map(String::as_str));
     let points = report.points();
     let shown = match points {
         0..=MOST_SHOWN => points,
@@ -48,7 +47,7 @@ pub(super) fn table(swept: &Swept) -> (Table, usize) {
     let more = points - shown;
     let caption =
         if more > 0 { format!("The first {shown} designs") } else { "All points".to_owned() };
-    (Table::new(caption, &header, (0..shown).map(row)), more)
+    (Table::new(caption, header, (0..shown).map(row)), more)
 }
 
 /// What stands in a column of the table.

@@ -80,7 +80,6 @@ pub(crate) enum ShardFault {
 }
 
 impl ShardFault {
-    /// What to do.
     pub(crate) fn help(&self) -> &'static str {
         match self {
             Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
@@ -213,12 +212,6 @@ impl Study for OfShard<'_> {
     }
 
     fn object(&self) -> impl Serialize {
-        #[derive(Serialize)]
-        struct Whole<C> {
-            #[serde(flatten)]
-            content: C,
-            digest: String,
-        }
         let content = object! {
             dashpot: VERSION,
             title: &self.scene.title,
@@ -233,7 +226,7 @@ impl Study for OfShard<'_> {
         };
         let text = serde_json::to_string_pretty(&content).unwrap_or_default();
         let digest = origin::sha256(text.strip_suffix("\n}").unwrap_or(&text).as_bytes());
-        Whole { content, digest }
+        object! { #[serde(flatten)] content, digest }
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

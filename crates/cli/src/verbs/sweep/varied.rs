@@ -8,7 +8,6 @@ use dashpot_scene::{DataTable, LeftOut, Listed, ListedFault, TunableFault, Tunab
 use super::SweepArguments;
 use crate::{counts::SWEEP_POINTS, error::CliError, input::Input, terminal::note};
 
-/// What varies, and how.
 pub(super) struct Varied {
     pub(super) tunables: Tunables,
     pub(super) variations: Vec<Variation>,

@@ -196,8 +196,7 @@ pub(super) fn summary(report: &SweepReport, is_sample: bool) -> Table {
         };
         [name(column) + &part].into_iter().chain(values).collect()
     });
-    let header: Vec<&str> = ["measure"].into_iter().chain(header.iter().map(|own| own.0)).collect();
-    Table::new("", &header, rows)
+    Table::new("", ["measure"].into_iter().chain(header.iter().map(|own| own.0)), rows)
 }
 
 /// What this share of rising values stays below, linear between them; `None` of none.
@@ -286,7 +285,6 @@ fn infinite(report: &SweepReport) -> Vec<String> {
     list(counts.map(text))
 }
 
-/// How it was solved.
 pub(super) fn solving(swept: &Swept) -> Vec<String> {
     let (report, points) = (&swept.report, swept.report.points());
     let mut all = vec![solved(report.instantiated, points)];

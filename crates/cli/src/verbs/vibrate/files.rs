@@ -19,7 +19,6 @@ use crate::{
 
 /// Ratios and phases at all frequencies.
 const TABLE: &str = "response.csv";
-/// The figures.
 const FIGURES: [&str; 2] = ["transmissibility.svg", "phase.svg"];
 
 /// The files that are written besides the result.
@@ -56,7 +55,6 @@ fn figures(sweep: &Sweep) -> Result<[ReportFigure; 2], CliError> {
     Ok([ReportFigure::of(&series.ratio_chart())?, ReportFigure::of(&series.phase_chart())?])
 }
 
-/// Everything on one page.
 fn page(shaken: &Shaken, figures: &[ReportFigure]) -> Report {
     let Shaken { scene, sweep, .. } = shaken;
     let of_steady = shaken.steady.iter();
@@ -72,10 +70,7 @@ fn page(shaken: &Shaken, figures: &[ReportFigure]) -> Report {
         tables: tables.filter(|own| !own.rows.is_empty()).collect(),
         network: sketch::figure(scene),
         figures: figures.to_vec(),
-        details: vec![
-            response(sweep, usize::MAX).0,
-            Table::new("Settings", &[], origin::rows(scene)),
-        ],
+        details: vec![response(sweep, usize::MAX).0, Table::plain("Settings", origin::rows(scene))],
         scene_text: scene.text.to_string(),
     }
 }

@@ -28,7 +28,6 @@ use crate::{
 
 /// Digits in the text of a peak.
 const DIGITS: usize = 3;
-/// Lines of a plot.
 const PLOT_HEIGHT: usize = 16;
 
 /// `vibrate`.
@@ -97,7 +96,6 @@ struct Shaken {
     plot: When,
 }
 
-/// Shakes a scene.
 pub(crate) fn vibrate(
     arguments: &VibrateArguments,
     terminal: Terminal,

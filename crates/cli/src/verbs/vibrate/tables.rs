@@ -73,9 +73,8 @@ pub(super) fn modes(sweep: &Sweep) -> Table {
         ];
         own.into_iter().chain((0..names.len()).map(cell)).collect()
     });
-    let header: Vec<&str> =
-        ["mode", "frequency", "damping ζ"].into_iter().chain(names.clone()).collect();
-    Table::new("Modes, with the displacement of each mass", &header, rows.take(MOST_ROWS))
+    let header = ["mode", "frequency", "damping ζ"].into_iter().chain(names.iter().copied());
+    Table::new("Modes, with the displacement of each mass", header, rows.take(MOST_ROWS))
 }
 
 /// A displacement relative to the largest one: with its sign where it is in phase or opposed, else with its phase.

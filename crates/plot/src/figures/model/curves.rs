@@ -1,6 +1,6 @@
 //! The plain numbers of one linear model that figures are drawn from, and how its curves are drawn.
 
-use crate::{Pattern, Series, Stroke};
+use crate::{Pattern, Series};
 
 /// What models stand for, which gives their units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -112,8 +112,8 @@ pub(super) fn draw(models: &[ModelSeries], kinds: &[Kind]) -> Drawn {
             let is_small = |value: f64| is_positive(value) && value < floor;
             is_cut |= points.iter().any(|p| is_small(p.1));
             let visible = |&(x, y): &(f64, f64)| (x, if is_small(y) { f64::NAN } else { y });
-            let points = points.iter().map(visible).collect();
-            drawn.series.push(Series { name, points, stroke: Some(Stroke { colour, pattern }) });
+            let points = points.iter().map(visible);
+            drawn.series.push(Series::drawn(name, (colour, pattern), points));
         }
     }
     if is_cut {

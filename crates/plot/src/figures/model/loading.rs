@@ -2,7 +2,7 @@
 
 use super::ModelSubject;
 use crate::{
-    Chart, Pattern, Series, Stroke,
+    Chart, Pattern, Series,
     figures::unit::{self, Unit},
     theme::COLOURS,
 };
@@ -47,10 +47,9 @@ impl LoopSeries {
                 (Unit::of(&unit::STRAIN, xs()), Unit::of(&unit::STRESS, ys()), ("strain", "stress"))
             }
         };
-        let one = |own: &Loop, colour: usize, pattern: Pattern| Series {
-            name: own.name.clone(),
-            points: own.points.iter().map(|p| (p.0 / x.factor, p.1 / y.factor)).collect(),
-            stroke: Some(Stroke { colour, pattern }),
+        let one = |own: &Loop, colour: usize, pattern: Pattern| {
+            let points = own.points.iter().map(|p| (p.0 / x.factor, p.1 / y.factor));
+            Series::drawn(&own.name, (colour, pattern), points)
         };
         let pattern = |at: usize| PATTERNS[at / COLOURS % PATTERNS.len()];
         let loops = self.loops.iter().enumerate();

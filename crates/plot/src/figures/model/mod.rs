@@ -9,7 +9,7 @@ mod loading;
 mod rheometer;
 
 use self::curves::{Kind, draw};
-use crate::{Chart, Pattern, Scale, Series, Stroke};
+use crate::{Chart, Pattern, Scale, Series};
 
 pub use curves::{ModelCurve, ModelSeries, ModelSubject};
 pub use loading::{Loop, LoopSeries};
@@ -94,11 +94,8 @@ impl ModelFigure {
             && is_relaxation
             && !model.spectrum.is_empty()
         {
-            drawn.series.push(Series {
-                name: "spectrum: K over τ".into(),
-                points: model.spectrum.clone(),
-                stroke: Some(Stroke { colour: 1, pattern: Pattern::Stems }),
-            });
+            let (name, points) = ("spectrum: K over τ", model.spectrum.clone());
+            drawn.series.push(Series::drawn(name, (1, Pattern::Stems), points));
         }
         Chart {
             title: self.titles[at].into(),

@@ -1,7 +1,7 @@
 //! What a model answers to a protocol of a rheometer, over time.
 
 use crate::figures::unit::{self, Unit};
-use crate::{Chart, Direction, Pattern, ReferenceLine, Scale, Series, Stroke};
+use crate::{Chart, Direction, Pattern, ReferenceLine, Scale, Series};
 
 /// The answer to one protocol: from the model's formulas and from a simulation of its network, in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,18 +67,12 @@ impl RheometerSeries {
             ("simulated network", &self.simulated, Pattern::Dashed),
         ];
         let series = curves.into_iter().enumerate().filter(|(_, curve)| !curve.1.is_empty());
-        let series = series.map(|(colour, (name, points, pattern))| Series {
-            name: name.into(),
-            points: points.iter().map(|p| (p.0 / x.factor, p.1 / y.factor)).collect(),
-            stroke: Some(Stroke { colour, pattern }),
+        let series = series.map(|(colour, (name, points, pattern))| {
+            let points = points.iter().map(|p| (p.0 / x.factor, p.1 / y.factor));
+            Series::drawn(name, (colour, pattern), points)
         });
         let line = |direction, factor: f64| {
-            move |line: &RheometerLine| ReferenceLine {
-                direction,
-                at: line.at / factor,
-                label: line.label.clone(),
-                colour: None,
-            }
+            move |own: &RheometerLine| ReferenceLine::new(direction, own.at / factor, &own.label)
         };
         let levels = self.levels.iter().map(line(Direction::Horizontal, y.factor));
         let instants = self.instants.iter().map(line(Direction::Vertical, x.factor));

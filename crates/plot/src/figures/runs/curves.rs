@@ -1,7 +1,7 @@
 //! The curves of a figure of runs: which are shown, in which colours and patterns.
 
 use super::{Of, RunRank, RunSeries};
-use crate::{Pattern, Series, Stroke, theme::COLOURS};
+use crate::{Pattern, Series, theme::COLOURS};
 
 /// The widest gap that is shown, as a part of the largest deformation.
 const WIDEST: f64 = 0.5;
@@ -86,8 +86,8 @@ pub(super) fn curves(
                 1 => (Pattern::Dashed, colour),
                 _ => (Pattern::Dotted, colour),
             };
-            let points = curve.iter().map(|&(x, y)| (x / x_factor, y / y_factor)).collect();
-            series.push(Series { name, points, stroke: Some(Stroke { colour, pattern }) });
+            let points = curve.iter().map(|&(x, y)| (x / x_factor, y / y_factor));
+            series.push(Series::drawn(name, (colour, pattern), points));
         }
     }
     series

@@ -1,7 +1,7 @@
 //! Measured curves over those of runs.
 
 use super::{super::unit::Unit, Of, RunSeries};
-use crate::{Pattern, Series, Stroke};
+use crate::{Pattern, Series};
 
 /// A curve that was measured, over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,10 +39,9 @@ pub(super) fn series(
     (x, y): (Unit, Unit),
 ) -> impl Iterator<Item = Series> {
     let pattern = if all.len() == 1 { Pattern::Measured } else { Pattern::Dotted };
-    all.iter().enumerate().map(move |(at, own)| Series {
-        name: own.name.clone(),
-        points: own.points.iter().map(|point| (point.0 / x.factor, point.1 / y.factor)).collect(),
-        stroke: Some(Stroke { colour: taken + at, pattern }),
+    all.iter().enumerate().map(move |(at, own)| {
+        let points = own.points.iter().map(|point| (point.0 / x.factor, point.1 / y.factor));
+        Series::drawn(&own.name, (taken + at, pattern), points)
     })
 }
 

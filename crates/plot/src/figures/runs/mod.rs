@@ -99,7 +99,6 @@ pub struct Figure {
     pub title: &'static str,
     x: Of,
     y: Of,
-    /// What is marked.
     kinds: &'static [RunMarkerKind],
 }
 

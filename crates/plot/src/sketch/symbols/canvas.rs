@@ -13,7 +13,6 @@ const HEAD: f64 = 7.0;
 /// Distance of the strokes behind a wall, and how far they reach \[px\].
 const HATCH: f64 = 10.0;
 
-/// Weight of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::sketch) enum Weight {
     Plain,

@@ -21,7 +21,6 @@ const STUB: f64 = 8.0;
 
 /// How one kind of element, or what an effect puts into a network, is drawn.
 pub(in crate::sketch) struct Symbol {
-    /// The kind's word.
     pub(in crate::sketch) kind: &'static str,
     /// One and several of them in a count.
     pub(in crate::sketch) names: [&'static str; 2],

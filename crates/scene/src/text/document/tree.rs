@@ -22,7 +22,6 @@ pub(crate) struct Item {
     pub(crate) place: Place,
 }
 
-/// What a value is.
 #[derive(Debug, Clone)]
 pub(crate) enum Content {
     /// A string.
@@ -43,14 +42,11 @@ pub(crate) enum Content {
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
     pub(crate) key: Word,
-    /// Where the key stands.
     pub(crate) key_place: Place,
-    /// The value.
     pub(crate) item: Item,
 }
 
 impl Item {
-    /// The type in words.
     pub(crate) fn type_name(&self) -> String {
         match &self.value {
             Content::Text(_) => "a text".to_owned(),
@@ -137,7 +133,6 @@ fn decimal(digits: &str, radix: u32) -> String {
 pub(crate) struct Word(Arc<str>);
 
 impl Word {
-    /// The word itself.
     pub(crate) fn as_str(&self) -> &str {
         &self.0
     }

@@ -33,7 +33,6 @@ impl ModelSection {
         }
     }
 
-    /// The other one.
     pub(crate) fn other(self) -> Self {
         match self {
             Self::Models => Self::Materials,
@@ -56,7 +55,6 @@ impl ModelSection {
 /// A model or a material of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Reference {
-    /// Index of the document.
     pub(crate) document: usize,
     /// The table in which it is.
     pub(crate) section: ModelSection,

@@ -35,7 +35,6 @@ pub(crate) const SCALE: &str = "scale";
 pub(crate) struct TableFile {
     /// Number of its text among the sources.
     pub(crate) number: u32,
-    /// Its text.
     pub(crate) source: Arc<Source>,
     /// Its channels, where it is a test in ISO-MME, and the paths of their files.
     pub(crate) channels: Option<Vec<MmeChannel>>,

@@ -35,7 +35,7 @@ use crate::{
     numbers::{bound, counted},
     operand::print_notes,
     origin,
-    output::{Pairs, Study, Text, VERSION, emit, list, object},
+    output::{Pairs, Study, Text, emit, list, object},
     progress::Bar,
     said,
     terminal::{Terminal, note},
@@ -48,10 +48,8 @@ const PART: [usize; 2] = [1 << 12, 1 << 18];
 const FILES: usize = 64;
 /// Reasons why points have no solution, and kinds of warnings, that are told; all are in the result.
 const MOST_TOLD: usize = 8;
-/// Digits of the extremes.
 const DIGITS: usize = 4;
 
-/// What is solved.
 pub(super) struct Wanted<'w> {
     pub(super) scene: &'w Scene,
     pub(super) varied: &'w Varied,
@@ -280,11 +278,8 @@ impl Study for Parts<'_> {
             }
         }));
         object! {
-            dashpot: VERSION,
-            title: &scene.title,
-            file: &scene.file,
-            sha256: origin::of_text(scene),
-            files: origin::of_files(scene),
+            #[serde(flatten)]
+            head: origin::head(scene),
             sweep: &self.wanted.sweep,
             listed: varied.is_of_rows(),
             parameters,

@@ -174,7 +174,6 @@ fn widest(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
 
 /// So many kinds are told apart: reasons why points fail may have numbers of their own, as many as there are points.
 const MOST_KINDS: usize = 100;
-/// All other kinds together.
 const OTHERS: &str = "others";
 
 fn count(all: &mut Vec<Counted>, own: Counted) {
