@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+# Says to the command that numbers without a unit are meant in SI units.
+_UNITS = "#:units SI\n"
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
@@ -19,7 +21,7 @@ def to_toml(scene: Mapping[str, Any]) -> str:
         if _is_table(own):
             lines += ["", f"[{_key(key)}]"]
             lines += [f"{_key(inner)} = {_value(value)}" for inner, value in own.items()]
-    return "\n".join(lines).lstrip("\n") + "\n"
+    return "\n".join(lines).lstrip("\n") + "\n" + _UNITS
 
 
 def _is_table(value: Any) -> bool:

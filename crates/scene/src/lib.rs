@@ -34,7 +34,7 @@ pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_models, read_named_model};
 pub use models::notes::{ModelNote, Remark, RestRemoved};
 pub use outline::{OutlineRow, outline};
-pub use quantities::bare::{BareNumber, BareNumbers, BareQuantity};
+pub use quantities::bare::{BareNumber, BareNumbers};
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
 pub use quantities::words::with_units;

@@ -13,7 +13,7 @@ use crate::{
         network_faults::{note_errors, note_held, note_warnings},
         review::{outlasted, review, upward, weightless},
     },
-    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, Severity, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     kinds::{Example, model_words},
     models::{ModelReader, notes::ModelNote},
     quantities::{
@@ -52,6 +52,9 @@ const SECTIONS: [&str; 15] = [
     "design",
     together::SECTION,
 ];
+
+/// The comment by which a text says that its numbers without a unit are meant in SI units, as programs write them.
+const BARE_ARE_SI: &str = "#:units SI";
 
 /// Everything that a scene says, checked.
 #[derive(Debug, Clone)]
@@ -295,17 +298,9 @@ pub(crate) fn checked<T>(
     bare: BareNumbers,
     read: impl FnOnce(&Faults) -> Option<T>,
 ) -> Result<Checked<T>, Diagnostics> {
-    let faults = Faults::default();
-    if bare != BareNumbers::Silent {
-        faults.count_bare();
-    }
+    let faults = Faults::with(bare);
     let value = read(&faults);
-    match bare {
-        BareNumbers::Refused => faults.tell_bare(Severity::Error),
-        // What is wrong comes first.
-        _ if faults.errors() == 0 => faults.tell_bare(Severity::Warning),
-        _ => {}
-    }
+    faults.tell_bare();
     let errors = faults.errors();
     let found = faults.finish();
     match value {
@@ -327,6 +322,9 @@ pub(crate) fn load(
     if let Some(fault) = table_for_scene(&settled, name) {
         faults.error(Place::new(faults.add_source(source), &(0..0)), fault);
         return None;
+    }
+    if settled.lines().any(|line| line.trim_end() == BARE_ARE_SI) {
+        faults.allow_bare();
     }
     let root = parse(&source, faults)?;
     for (own, fault) in astray {

@@ -14,7 +14,7 @@ use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
 use crate::{
     curves::CurveChange,
     quantities::{
-        bare::{BareNumber, BareQuantity, bare_numbers},
+        bare::BareNumber,
         scatter::ScatterFault,
         words::{described, example, in_both_units, with_units},
     },
@@ -187,17 +187,9 @@ pub enum Fault {
     /// A number without a unit in place of one that has one.
     #[error("{0}")]
     BareNumber(BareNumber),
-    /// Numbers without a unit where one is expected.
-    #[error("{}", bare_numbers(.named, *.count))]
-    BareNumbers { named: Vec<BareQuantity>, count: usize },
-    /// A limit without a unit.
-    #[error("`{text}` has no unit: it is read as {}", in_both_units(*.level, *.expected))]
-    BareLimit {
-        text: String,
-        /// What it is read as, in SI units.
-        level: f64,
-        expected: Dimension,
-    },
+    /// A number without a unit where one is expected, and what it is read as in SI units.
+    #[error("`{text}` has no unit: it is read as {}", in_both_units(*.value, *.expected))]
+    NoUnit { text: String, value: f64, expected: Dimension },
     /// Something that is odd but not wrong.
     #[error("{message}")]
     Odd { message: String, help: Option<String> },
@@ -236,8 +228,9 @@ impl Fault {
 
     /// Whether it is of the same kind, and the same is to be done about it.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        mem::discriminant(self.bare()) == mem::discriminant(other.bare())
-            && self.help() == other.help()
+        let (own, other_bare) = (self.bare(), other.bare());
+        mem::discriminant(own) == mem::discriminant(other_bare)
+            && (matches!(own, Self::NoUnit { .. }) || self.help() == other.help())
     }
 
     /// The fault without what its surroundings tell.
@@ -319,13 +312,10 @@ impl Fault {
             Self::WrongDimension { expected, .. } | Self::NoQuantity { expected, .. } => {
                 example(*expected)
             }
-            Self::BareNumbers { named, .. } => {
-                let like = named.first().map(|own| format!("\"{} {}\"", own.text, own.unit));
-                format!("write their units, such as {}", like.unwrap_or_default())
+            Self::NoUnit { text, .. } if text.parse::<f64>().is_err() => {
+                "give the numbers in it their units".to_owned()
             }
-            Self::BareLimit { level, expected, .. } => {
-                format!("write {}", with_units(&level.to_string(), *expected))
-            }
+            Self::NoUnit { text, expected, .. } => format!("write {}", with_units(text, *expected)),
             Self::AngularFrequency { frequency, .. } => {
                 format!("divide by 2 pi: \"{frequency:.6} Hz\"")
             }

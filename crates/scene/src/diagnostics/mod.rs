@@ -11,20 +11,14 @@ use std::{
     sync::Arc,
 };
 
-use dashpot_network::parameters::Dimension;
-
 use self::fault::Fault;
 use crate::{
-    quantities::bare::BareQuantity,
+    quantities::bare::BareNumbers,
     text::source::{Place, SET, Source},
-    units::si_unit,
 };
 
 /// So many faults are kept; the others are counted.
 const KEPT: usize = 100;
-
-/// So many numbers without a unit are named.
-const BARE_NAMED: usize = 4;
 
 /// How bad a fault is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,8 +115,9 @@ struct State {
     omitted: usize,
     errors: usize,
     damaged: bool,
-    /// Numbers without a unit, as they are written, and what they are read as; `None` where nobody asks.
-    bare: Option<HashMap<Place, (String, Dimension)>>,
+    bare: BareNumbers,
+    /// Numbers without a unit by their places, and what is wrong with them.
+    without_unit: HashMap<Place, Fault>,
 }
 
 impl Faults {
@@ -150,36 +145,45 @@ impl Faults {
         self.note(Severity::Warning, place.into(), fault);
     }
 
-    /// From now on numbers without a unit count.
-    pub(crate) fn count_bare(&self) {
-        self.state.borrow_mut().bare = Some(HashMap::new());
+    /// None yet; `bare` says what becomes of numbers without a unit.
+    pub(crate) fn with(bare: BareNumbers) -> Self {
+        let own = Self::default();
+        own.state.borrow_mut().bare = bare;
+        own
     }
 
-    /// Counts a number without a unit, which is read as one of this dimension.
-    pub(crate) fn bare(&self, place: Place, dimension: Dimension, text: impl FnOnce() -> String) {
-        let is_new = |own: &HashMap<_, _>| !own.contains_key(&place);
-        if !self.state.borrow().bare.as_ref().is_some_and(is_new) {
-            return;
-        }
-        let text = text();
-        if let Some(bare) = &mut self.state.borrow_mut().bare {
-            bare.insert(place, (text, dimension));
+    /// From now on nothing is said of numbers without a unit but of what is odd.
+    pub(crate) fn allow_bare(&self) {
+        self.state.borrow_mut().bare = BareNumbers::Silent;
+    }
+
+    /// Notes a number without a unit where it is written, once; one that is odd is told of in any case, and in place of
+    /// what else is said of it.
+    pub(crate) fn bare(&self, place: Place, is_odd: bool, fault: impl FnOnce() -> Fault) {
+        let is_silent = self.state.borrow().bare == BareNumbers::Silent;
+        let is_known = self.state.borrow().without_unit.contains_key(&place);
+        match (is_silent, is_odd) {
+            (true, true) => self.warning(place, fault()),
+            (true, false) => {}
+            (false, false) if is_known => {}
+            (false, _) => {
+                let fault = fault();
+                self.state.borrow_mut().without_unit.insert(place, fault);
+            }
         }
     }
 
-    /// Notes all numbers without a unit as one fault.
-    pub(crate) fn tell_bare(&self, severity: Severity) {
-        let bare = self.state.borrow_mut().bare.take().unwrap_or_default();
-        let mut all: Vec<(Place, (String, Dimension))> = bare.into_iter().collect();
+    /// Notes all numbers without a unit, where they are no errors only if there are no others: what is wrong comes first.
+    pub(crate) fn tell_bare(&self) {
+        let (is_refused, all) = {
+            let mut state = self.state.borrow_mut();
+            (state.bare == BareNumbers::Refused, std::mem::take(&mut state.without_unit))
+        };
+        let severity = if is_refused { Severity::Error } else { Severity::Warning };
+        let mut all: Vec<(Place, Fault)> = all.into_iter().collect();
+        all.retain(|_| is_refused || self.errors() == 0);
         all.sort_by_key(|own| (own.0.source, own.0.start));
-        let Some(first) = all.first().map(|own| own.0) else { return };
-        let named = all.iter().take(BARE_NAMED).map(|(place, (text, dimension))| BareQuantity {
-            text: text.clone(),
-            unit: si_unit(*dimension),
-            whereabouts: self.whereabouts(*place),
-        });
-        let fault = Fault::BareNumbers { named: named.collect(), count: all.len() };
-        self.note(severity, Some(first), fault);
+        all.into_iter().for_each(|(place, fault)| self.note(severity, Some(place), fault));
     }
 
     /// Says that the text is not TOML throughout: what is missing may have been meant to be there.

@@ -47,7 +47,7 @@ impl KindReader<'_> {
         let read = read.join("; ");
         let message = format!("the file does not say all its units: {read}");
         let [first, second] = dimensions.map(|own| match own {
-            Dimension::NUMBER => "%".to_owned(),
+            Dimension::NUMBER => "1".to_owned(),
             other => si_unit(other),
         });
         let [one, other] = names.map(|own| {
@@ -59,7 +59,7 @@ impl KindReader<'_> {
             "write a header line `{one} [{first}], {other} [{second}]`, or \
              `{{ file = \"…\", units = [\"{first}\", \"{second}\"] }}` in place of the name"
         );
-        self.quantities.faults.warning(place, Fault::odd(message, help));
+        self.quantities.faults.bare(place, true, || Fault::odd(message, help));
     }
 }
 

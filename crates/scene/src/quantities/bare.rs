@@ -5,45 +5,16 @@ use thiserror::Error;
 
 use crate::units::{parse_quantity, si_unit};
 
-/// What becomes of numbers without a unit where one is expected.
+/// What becomes of numbers without a unit where one is expected. They are in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum BareNumbers {
-    /// They are in SI units, and nothing is said: for programs.
+    /// Nothing is said but of those that are probably meant in another unit: for programs.
     #[default]
     Silent,
-    /// They are in SI units, and one warning says so.
+    /// Each gives a warning, where it is written.
     Warned,
-    /// They are one error.
+    /// Each is an error.
     Refused,
-}
-
-/// A number of a scene without a unit.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct BareQuantity {
-    /// As it is written.
-    pub text: String,
-    /// The unit of SI in which it is read.
-    pub unit: String,
-    /// Its line and file, in words.
-    pub whereabouts: String,
-}
-
-/// `2 numbers have no unit and are read in SI: …`.
-pub(crate) fn bare_numbers(named: &[BareQuantity], count: usize) -> String {
-    let one = |own: &BareQuantity| {
-        let BareQuantity { text, unit, whereabouts } = own;
-        format!("`{text}` as {unit} in {whereabouts}")
-    };
-    let all = named.iter().map(one).collect::<Vec<_>>().join(", ");
-    let more = match count - named.len() {
-        0 => String::new(),
-        more => format!(", and {more} more"),
-    };
-    let subject = match count {
-        1 => "a number has no unit and is".to_owned(),
-        _ => format!("{count} numbers have no unit and are"),
-    };
-    format!("{subject} read in SI: {all}{more}")
 }
 
 /// A number without a unit where the scene has one that is not of SI, so that it is hardly meant.

@@ -268,6 +268,19 @@ impl<'d> Quantities<'d> {
         definition.map_or_else(|| self.shown(item), |definition| definition.text.clone())
     }
 
+    /// Where the number stands that `item` gives: under [values], where it is the name of one.
+    fn origin(self, item: &Item) -> Place {
+        let known = self.values.get(item.text().map_or("", str::trim));
+        let definition = known.and_then(|known| known.definition.as_ref());
+        definition.map_or(item.place, |definition| definition.place)
+    }
+
+    /// Notes that `item` has no unit; it is read as this in SI units, which is odd where another is usual.
+    pub(crate) fn without_unit(self, item: &Item, value: f64, expected: Dimension, is_odd: bool) {
+        let fault = || Fault::NoUnit { text: self.written(item), value, expected };
+        self.faults.bare(self.origin(item), is_odd, fault);
+    }
+
     /// `fault`, which is about `item`, with the definitions of the names that stand there.
     pub(crate) fn traced(self, item: &Item, fault: Fault) -> Fault {
         let text = item.text().map_or("", str::trim);
@@ -286,14 +299,19 @@ impl<'d> Quantities<'d> {
             Subject::Key(key) | Subject::Angle(key) => key,
             Subject::Value => "",
         };
-        let fault = if self.is_bare(item) {
-            let subject = if key.is_empty() { self.shown(item) } else { key.to_owned() };
-            plausible::bare(key, &subject, dimension, value)
-        } else {
-            plausible::slip(&self.written(item), dimension, value)
-        };
-        if let Some(fault) = fault {
-            self.faults.warning(item.place, self.traced(item, fault));
+        if !self.is_bare(item) {
+            if let Some(fault) = plausible::slip(&self.written(item), dimension, value) {
+                self.faults.warning(item.place, self.traced(item, fault));
+            }
+            return;
+        }
+        let subject = if key.is_empty() { self.shown(item) } else { key.to_owned() };
+        match plausible::bare(key, &subject, dimension, value) {
+            Some(fault) if dimension == Dimension::NUMBER => {
+                self.faults.warning(item.place, self.traced(item, fault));
+            }
+            Some(fault) => self.faults.bare(self.origin(item), true, || fault),
+            None => {}
         }
     }
 
@@ -438,7 +456,7 @@ impl<'d> Quantities<'d> {
         }
         let is_bare = quantity.dimension.is_none() && quantity.value != 0.0;
         if is_bare && expected != Dimension::NUMBER && !is_index {
-            self.faults.bare(item.place, expected, || self.written(item));
+            self.without_unit(item, quantity.value, expected, false);
         }
         Some(quantity.value)
     }

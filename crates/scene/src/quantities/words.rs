@@ -25,11 +25,12 @@ fn article(word: &str) -> &'static str {
 }
 
 /// Units in which the field thinks, where they are not those of SI, and what one of them is.
-const USUAL: [(Dimension, &str, f64); 4] = [
+const USUAL: [(Dimension, &str, f64); 5] = [
     (Dimension::ACCELERATION, "g", STANDARD_GRAVITY),
     (Dimension::FORCE, "kN", 1e3),
     (Dimension::LENGTH, "mm", 1e-3),
     (Dimension::TIME, "ms", 1e-3),
+    (Dimension::PRESSURE, "kPa", 1e3),
 ];
 
 /// What to write in place of a number without a unit.

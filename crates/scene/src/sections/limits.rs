@@ -139,8 +139,7 @@ fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64>
     let quantities = if is_index(kind) { quantities.index() } else { quantities.unwatched() };
     let level = quantities.read(item, dimension(kind))?;
     if let Some(expected) = unit_wanted(kind, level).filter(|_| quantities.is_bare(item)) {
-        let fault = Fault::BareLimit { text: quantities.shown(item), level, expected };
-        reading.faults.warning(item.place, quantities.traced(item, fault));
+        quantities.without_unit(item, level, expected, true);
     }
     Some(level)
 }

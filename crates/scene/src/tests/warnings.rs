@@ -58,7 +58,10 @@ fn limits_without_a_unit_are_told_in_that_of_the_field() {
     has(&limit("pad.contact-time = { min = 5 }"), &["5 s = 5000 ms"]);
     has(&limit("pad.energy = 50"), &["read as 50 J", "write \"50 J\""]);
     let named = format!("{RUN}[limits]\npad.peak-force = \"most\"\n[values]\nmost = 20\n");
-    has(&warnings(HEAD, PAD, &named), &["`most` has no unit: it is read as 20 N = 0.02 kN"]);
+    has(
+        &warnings(HEAD, PAD, &named),
+        &["`20` has no unit: it is read as 20 N = 0.02 kN", "most = 20"],
+    );
     // Indices are plain numbers, and zero is the same in all units.
     for own in ["head.hic15 = 700", "head.severity-index = 1500", "pad.end-force = { min = 0 }"] {
         assert_eq!(limit(own), "", "{own}");
