@@ -101,7 +101,7 @@ fn what_takes_too_much_memory_is_refused_with_the_figure() {
 }
 
 #[test]
-fn numbers_without_a_unit_give_one_warning_and_an_error_where_that_is_asked_for() {
+fn numbers_without_a_unit_give_a_warning_each_and_an_error_where_that_is_asked_for() {
     let room = TempDir::new().unwrap();
     let bare =
         PAD.replace("\"60 kN/m\"", "60e3").replace("\"5 kg\"", "5").replace("\"20 ms\"", "0.02");
@@ -115,15 +115,17 @@ fn numbers_without_a_unit_give_one_warning_and_an_error_where_that_is_asked_for(
     ] {
         let output = run(&verb);
         assert_eq!(code(&output), 0, "{verb:?}: {}", err(&output));
-        assert_eq!(said(&output).matches("have no unit").count(), 1, "{verb:?}: {}", err(&output));
-        for part in
-            ["3 numbers have no unit", "`5` as kg in line 4", "`60e3` as N/m", "`0.02` as s"]
-        {
+        assert_eq!(said(&output).matches("has no unit").count(), 3, "{verb:?}: {}", err(&output));
+        for part in [
+            "`5` has no unit: it is read as 5 kg",
+            "`60e3` has no unit: it is read as 60000 N/m",
+            "`0.02` has no unit: it is read as 0.02 s = 20 ms",
+        ] {
             assert!(said(&output).contains(part), "{verb:?}: {}", err(&output));
         }
         let strict = run(&[&verb[..], &["--strict"]].concat());
         assert_eq!((code(&strict), out(&strict).as_str()), (2, ""), "{verb:?}");
-        assert!(said(&strict).contains("error: 3 numbers have no unit"), "{}", err(&strict));
+        assert_eq!(said(&strict).matches("error: ").count(), 3, "{}", err(&strict));
     }
     let output = run(&["run", scene, "--strict"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
@@ -132,6 +134,81 @@ fn numbers_without_a_unit_give_one_warning_and_an_error_where_that_is_asked_for(
     let zero = PAD.replace("\"80 N s/m\"", "0").replace("duration", "samples = 11\nduration");
     let zero = file(&room, "zero.toml", &zero);
     assert_eq!(code(&run(&["check", text(&zero), "--strict"])), 0);
+}
+
+/// Each number is told of once, at the place where it is written.
+#[test]
+fn a_number_without_a_unit_is_pointed_at_where_it_is_written() {
+    let room = TempDir::new().unwrap();
+    let scene = |name: &str, from: &str, to: &str| {
+        assert!(PAD.contains(from), "{from}");
+        text(&file(&room, name, &PAD.replace(from, to))).to_owned()
+    };
+    // Under [values], not where its name stands.
+    let named = scene("named.toml", "\"60 kN/m\"", "60e3");
+    let shown = err(&run(&["check", &named]));
+    assert!(shown.contains("K = 60e3") && !shown.contains("spring = "), "{shown}");
+    // What is odd says so, and nothing else.
+    let thick = scene("thick.toml", "duration = \"20 ms\"", "duration = 20");
+    for (strict, level) in [(&[][..], "warning"), (&["--strict"][..], "error")] {
+        let output = run(&[&["check", &thick][..], strict].concat());
+        let shown = said(&output);
+        assert!(
+            shown.contains(&format!("{level}: `run.duration` is 20 s: did you mean ms?")),
+            "{shown}"
+        );
+        assert_eq!(shown.matches(&format!("{level}: ")).count(), 1, "{shown}");
+        assert_eq!(shown.matches("help: ").count(), 1, "{shown}");
+    }
+    // A limit is told of once, with the units of the field.
+    let limited = scene("limited.toml", "[run]", "[limits]\nhead.peak-acceleration = 250\n[run]");
+    let shown = said(&run(&["check", &limited]));
+    assert_eq!(shown.matches("help: ").count(), 1, "{shown}");
+    assert!(shown.contains("250 m/s^2 = 25.49 g"), "{shown}");
+    // A file of numbers is held to the same, with advice that changes no number.
+    fs::write(room.path().join("curve.csv"), "0,0\n0.04,6000\n").unwrap();
+    let law = "kelvin-voigt = { spring = \"K\", dashpot = \"80 N s/m\" }";
+    let tabled = scene("tabled.toml", law, "table-spring = \"curve.csv\"");
+    let strict = run(&["check", &tabled, "--strict"]);
+    assert_eq!(code(&strict), 2, "{}", err(&strict));
+    assert!(said(&strict).contains("deformation [m], force [N]"), "{}", err(&strict));
+    // Of many the first ones are shown, and where the others are.
+    let rows: Vec<String> = (0..30).map(|at| format!("[{at}e-3, {at}]")).collect();
+    let listed = format!("table-spring = [{}]", rows.join(", "));
+    let listed = scene("listed.toml", law, &listed);
+    let shown = said(&run(&["check", &listed]));
+    assert!(shown.contains("and 55 warnings of the same kind, in lines"), "{shown}");
+    // What a program wrote says that it is in SI.
+    let own =
+        format!("{}#:units SI\n", PAD.replace("\"60 kN/m\"", "60e3").replace("\"5 kg\"", "5"));
+    let output = run(&["check", text(&file(&room, "own.toml", &own)), "--strict"]);
+    assert_eq!((code(&output), said(&output).contains("no unit")), (0, false), "{}", err(&output));
+}
+
+#[test]
+fn slips_of_the_command_line_are_told_with_what_to_write() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", PAD);
+    let (scene, folder) = (text(&scene), text(room.path()));
+    let nowhere = room.path().join("none/pad.toml");
+    let missing = format!("there is no folder `{}`", text(nowhere.parent().unwrap()));
+    let convert = ["convert", "reference:padding", "--to", "generalized-maxwell", "--out"];
+    for (arguments, advice) in [
+        (vec!["rnu", scene], "did you mean `run`?"),
+        (vec!["run", scene, "--otu", "x"], "did you mean `--out`?"),
+        (vec!["sweep", scene], "for example `dashpot sweep "),
+        (
+            vec!["compare", scene],
+            "for example `dashpot compare pads.toml:burgers pads.toml:two-maxwell`",
+        ),
+        (vec!["run", folder], "name a file in it"),
+        (vec!["cushion", scene, "--stress", "1..10"], "\"1..10 kPa\" or \"1..10 Pa\""),
+        ([&convert[..], &[text(&nowhere)]].concat(), &missing),
+    ] {
+        let output = run(&arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(said(&output).contains(advice), "{arguments:?}: {}", err(&output));
+    }
 }
 
 #[test]

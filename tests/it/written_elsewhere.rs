@@ -219,6 +219,25 @@ fn three_hundred_scenes_that_are_written_elsewhere_have_the_same_numbers() {
     (0..300).for_each(|_| survives(&mut random));
 }
 
+#[test]
+fn paths_from_elsewhere_are_the_shortest() {
+    let room = TempDir::new().unwrap();
+    let [own, data] = ["own", "data"].map(|name| room.path().join(name));
+    [&own, &data].iter().for_each(|folder| fs::create_dir_all(folder).unwrap());
+    fs::write(data.join("c.csv"), "deformation [mm],force [kN]\n0,0\n40,6\n").unwrap();
+    let scene = own.join("s.toml");
+    let shown = "[nodes]\nm = { mass = \"5 kg\", velocity = \"1 m/s\" }\n[elements]\n\
+                 p = { between = [\"m\", \"ground\"], table-spring = \"../data/c.csv\" }\n\
+                 [run]\nduration = \"40 ms\"\n[fit]\nto = \"../data/c.csv:force=p.force\"\n";
+    fs::write(&scene, shown).unwrap();
+    let ran = room.path().join("ran");
+    done(&run(&["run", text(&scene), "--out", text(&ran), "--write", "scene"]), "run");
+    let written = fs::read_to_string(ran.join("scene-as-run.toml")).unwrap();
+    for path in ["table-spring = \"../data/c.csv\"", "to = \"../data/c.csv:force=p.force\""] {
+        assert!(written.contains(path), "{written}");
+    }
+}
+
 /// A folder that is not there, and a file that is: each is told before the work, which would take its time.
 #[test]
 fn a_place_that_cannot_be_written_to_is_told_before_the_work() {

@@ -3,20 +3,21 @@
 use std::{ffi::OsStr, path::PathBuf};
 
 use clap::{
-    Args, ValueEnum,
+    Args, Command, CommandFactory, ValueEnum,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
     error::{ContextKind, ContextValue, ErrorKind},
 };
 use dashpot_analysis::{Accuracy, Limit};
 use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::{parse_limits, units::parse_quantity};
+use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
 use serde::{Deserialize, Serialize};
 
 use crate::{
     error::{CliError, is_unit, unquoted_help},
     host,
+    verbs::Arguments,
 };
 
 /// What may stand for a model.
@@ -153,13 +154,48 @@ pub(crate) enum Switch {
     Off,
 }
 
-/// The error with what to write where a unit stands alone.
+/// The error with what to write: the word that was probably meant, quotes around a unit that stands alone, or an example
+/// of what is not whole.
 pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return error };
-    let unit = word.split(',').next().unwrap_or_default();
-    if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
-        let help = unquoted_help(unit).into();
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![help]));
+    let command = Arguments::command();
+    let verb = host::arguments().iter().find_map(|own| command.find_subcommand(own));
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => word.clone(),
+        _ => String::new(),
+    };
+    let (known, unknown): (Vec<String>, String) = match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let verbs = command.get_subcommands().map(|own| own.get_name().to_owned());
+            (verbs.collect(), word(ContextKind::InvalidSubcommand))
+        }
+        ErrorKind::UnknownArgument => {
+            let options =
+                command.get_arguments().chain(verb.into_iter().flat_map(Command::get_arguments));
+            let names = options.filter_map(|own| Some(format!("--{}", own.get_long()?)));
+            (names.collect(), word(ContextKind::InvalidArg))
+        }
+        _ => (Vec::new(), String::new()),
+    };
+    let unit = unknown.split(',').next().unwrap_or_default();
+    let tip = if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
+        Some(unquoted_help(unit))
+    } else if let Some(near) = nearest(&unknown, known.iter().map(String::as_str)) {
+        Some(format!("did you mean `{near}`?"))
+    } else if error.kind() == ErrorKind::MissingRequiredArgument {
+        let examples = verb.and_then(Command::get_after_help).map(ToString::to_string);
+        let first = examples
+            .as_deref()
+            .and_then(|own| own.lines().find(|own| own.starts_with("  dashpot")));
+        first.map(|own| {
+            format!("for example `{}`", own.trim().split("   ").next().unwrap_or_default())
+        })
+    } else {
+        None
+    };
+    if let Some(tip) = tip {
+        error.remove(ContextKind::SuggestedArg);
+        error.remove(ContextKind::SuggestedSubcommand);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     error
 }

@@ -80,17 +80,18 @@ impl SceneText<'_> {
     /// Paths are rewritten and files not copied: a copy would lose its origin, and grow old beside it.
     pub(crate) fn at(&self, path: &Path) -> Result<String, CliError> {
         let [from, to] = [Path::new(self.file), path].map(folder_of);
-        let failed = |source| CliError::Unwritable { path: path.to_owned(), source };
-        // A text of a program that calls is in no folder.
-        let way = if from.is_dir() { way(&to, &from).map_err(failed)? } else { String::new() };
-        let led = |name: &str| {
+        // A text of a program that calls is in no folder, and what is not there stays as it is written.
+        let led = |folder: &str| way(&to, &from.join(folder)).ok();
+        let led_file = |name: &str| {
             let is_absolute = name.starts_with(['/', '\\']) || name.contains(':');
-            (!is_absolute && from.join(name).exists()).then(|| format!("{way}{name}"))
+            let (folder, file) = name.split_at(name.rfind('/').map_or(0, |own| own + 1));
+            let is_there = !is_absolute && from.join(name).exists();
+            is_there.then(|| led(folder)).flatten().map(|own| own + file)
         };
-        let text = if way.is_empty() {
+        let text = if led("").is_none_or(|own| own.is_empty()) {
             self.text.to_owned()
         } else {
-            with_paths_of_sections(&with_paths(self.text, &led), &way)
+            with_paths_of_sections(&with_paths(self.text, &led_file), &led)
         };
         let otherwise = |reason| CliError::WrittenOtherwise { path: path.to_owned(), reason };
         let read = |text: &str, file: &str| {

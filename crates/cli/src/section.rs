@@ -128,9 +128,13 @@ impl Verb {
     }
 }
 
-/// The text of a scene where the files that the sections of these verbs name have `way` before them, unless they are
-/// absolute.
-pub(crate) fn with_paths(text: &str, verbs: &[Verb], way: &str) -> String {
+/// The text of a scene where the files that the sections of these verbs name are in the folders that `led` gives for
+/// theirs, unless they are absolute.
+pub(crate) fn with_paths(
+    text: &str,
+    verbs: &[Verb],
+    led: &dyn Fn(&str) -> Option<String>,
+) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
     for verb in verbs {
         let Some(section) = document.get_mut(verb.name).and_then(Item::as_table_like_mut) else {
@@ -143,7 +147,9 @@ pub(crate) fn with_paths(text: &str, verbs: &[Verb], way: &str) -> String {
             let lead = |own: &mut Value| {
                 let led = own.as_str().and_then(|own| {
                     let at = begin(own).filter(|at| !Path::new(&own[*at..]).has_root())?;
-                    Some(format!("{}{way}{}", &own[..at], &own[at..]))
+                    let file = own[at..].split(':').next().unwrap_or_default();
+                    let end = at + file.rfind('/').map_or(0, |own| own + 1);
+                    Some(format!("{}{}{}", &own[..at], led(&own[at..end])?, &own[end..]))
                 });
                 if let Some(led) = led {
                     let decor = own.decor().clone();

@@ -1,5 +1,7 @@
 //! What to do about an error.
 
+use std::path::Path;
+
 use dashpot_analysis::{RunError, similarity::SimilarityError, vibration::VibrationError};
 use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
 use dashpot_design::cushion::NoCushion;
@@ -14,6 +16,10 @@ impl CliError {
     /// What to do, where that can be said.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
+            Self::Unreadable { name, .. } if Path::new(name).is_dir() => Some(format!(
+                "name a file in it, such as `{}`",
+                Path::new(name).join("pad.toml").display()
+            )),
             Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
                 Some(unquoted_help(name))
             }

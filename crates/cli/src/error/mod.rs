@@ -94,7 +94,7 @@ pub(crate) enum CliError {
     #[error("`{}` exists already", .path.display())]
     Foreign { path: PathBuf, help: &'static str },
     /// A file or folder that cannot be written.
-    #[error("`{}` cannot be written: {}", .path.display(), reason(.source))]
+    #[error("`{}` cannot be written: {}", .path.display(), unwritten(.path, .source))]
     Unwritable { path: PathBuf, source: io::Error },
     /// A scene that would not be the same where it is to be written.
     #[error("as `{}` the scene would not be the same: {reason}", .path.display())]
@@ -269,6 +269,16 @@ fn interrupted(kept: usize, of: usize, path: &Path) -> String {
     match kept {
         0 => format!("interrupted before the first file was whole: none of {of} points is kept"),
         kept => format!("interrupted: {kept} of {of} points are kept in `{}`", path.display()),
+    }
+}
+
+/// Why a file cannot be written: first of all because its folder is not there.
+fn unwritten(path: &Path, error: &io::Error) -> String {
+    match path.parent().filter(|own| **own != *"" && !own.exists()) {
+        Some(folder) if error.kind() == io::ErrorKind::NotFound => {
+            format!("there is no folder `{}`", folder.display())
+        }
+        _ => reason(error),
     }
 }
 

@@ -33,9 +33,9 @@ use crate::{
     terminal::Terminal,
 };
 
-/// The text of a scene where the files that its sections of options name have `way` before them.
-pub(crate) fn with_paths_of_sections(text: &str, way: &str) -> String {
-    with_paths(text, &[fit::SECTION, design::SECTION], way)
+/// The text of a scene where the files that its sections of options name are in the folders that `led` gives for theirs.
+pub(crate) fn with_paths_of_sections(text: &str, led: &dyn Fn(&str) -> Option<String>) -> String {
+    with_paths(text, &[fit::SECTION, design::SECTION], led)
 }
 
 /// Impacts on viscoelastic padding: spring-dashpot-mass networks, solved with stated errors.
