@@ -201,11 +201,7 @@ fn what_rounding_leaves_of_zero_is_zero_in_every_study() {
         let vary = "K=40..60 kN/m,3";
         let own = json(&["sweep", &path, "--vary", vary, "--measure", "pad.energy", "--json"]);
         assert!(
-            own["measures"][0]["values"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .all(|own| own == 0.0),
+            own["measures"][0]["values"].as_array().unwrap().iter().all(|own| own == 0.0),
             "{own}"
         );
         let text = out(&run(&[

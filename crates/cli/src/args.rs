@@ -304,7 +304,7 @@ impl TypedValueParser for MethodNames {
 
     fn parse_ref(
         &self,
-        command: &clap::Command,
+        command: &Command,
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<String, clap::Error> {

@@ -7,12 +7,12 @@ use std::{
 
 use clap::Parser;
 use dashpot_network::NetworkWarning;
-use dashpot_scene::{Diagnostic, Diagnostics, ReadOptions, Scene, Severity, read};
+use dashpot_scene::{Diagnostic, Diagnostics, Scene, Severity, read};
 
 use crate::{
     args,
     error::{CliError, Status},
-    input::{Input, load},
+    input::{Input, options},
     terminal::Terminal,
     verbs::{Arguments, undefined},
 };
@@ -131,9 +131,7 @@ pub fn read_scene(
     set: &[(String, String)],
 ) -> Result<(Scene, Vec<Said>), Vec<Said>> {
     let all = |found: Diagnostics| -> Vec<Said> { found.list.iter().map(Said::from).collect() };
-    let read =
-        read(text, &ReadOptions { file, set, loader: Some(&load), ..ReadOptions::default() })
-            .map_err(all)?;
+    let read = read(text, &options(file, set)).map_err(all)?;
     let (scene, mut said) = (read.value, all(read.warnings));
     for own in &mut said {
         let known = scene.assembly.warnings.iter().find(|known| known.to_string() == own.message);

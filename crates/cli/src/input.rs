@@ -87,8 +87,13 @@ impl Input {
             true => BareNumbers::Refused,
             false => BareNumbers::Warned,
         };
-        ReadOptions { file: Some(&self.file), set, loader: Some(&load), bare }
+        ReadOptions { bare, ..options(Some(&self.file), set) }
     }
+}
+
+/// How a text of this file is read once more.
+pub(crate) fn options<'o>(file: Option<&'o str>, set: &'o [(String, String)]) -> ReadOptions<'o> {
+    ReadOptions { file, set, loader: Some(&load), ..ReadOptions::default() }
 }
 
 /// The scene's title, or the name of its file.
@@ -128,8 +133,7 @@ pub(crate) fn argument(name: &str, text: &str, expected: Dimension) -> Result<f6
     })
 }
 
-/// What may be meant by a name that no file has: the same with or without the ending of a scene, or a
-/// built-in scene.
+/// What may be meant by a name that no file has: the same with or without the ending of a scene, or a built-in scene.
 fn similar(path: &Path) -> Option<String> {
     let with_ending = path.with_extension("toml");
     if path.extension().is_none() && with_ending.is_file() {

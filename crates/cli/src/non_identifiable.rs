@@ -55,8 +55,7 @@ fn listed(all: &[String]) -> String {
     }
 }
 
-/// All that there is to say about the models of a scene: how they were made, and what cannot be
-/// told apart.
+/// All that there is to say about the models of a scene: how they were made, and what cannot be told apart.
 pub(crate) fn notes(scene: &Scene) -> Vec<String> {
     let made = scene.notes.iter().map(|note| format!("{}: {}", note.subject, note.what));
     let connections = scene.network.connections().iter();

@@ -184,14 +184,13 @@ pub(crate) fn note_means(scene: &Scene) {
 }
 
 /// Says what there is to say about models.
-pub(crate) fn print_notes(notes: &[ModelNote]) {
+pub(crate) fn print_notes<'n>(notes: impl IntoIterator<Item = &'n ModelNote>) {
     for ModelNote { subject, what, .. } in notes {
         note(&format!("{subject}: {what}"));
     }
 }
 
-/// Says which effects of the scene act on the element that a model was taken from: the model is that
-/// without them.
+/// Says which effects of the scene act on the element that a model was taken from: the model is that without them.
 fn note_effects(named: &NamedModel, text: &str, options: &ReadOptions<'_>) {
     if named.section != "elements" {
         return;

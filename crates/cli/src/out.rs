@@ -7,14 +7,15 @@ use std::{
 };
 
 use clap::Args;
-use dashpot_scene::{Diagnostic, Diagnostics, ReadOptions, pose, read_models, with_paths};
+use dashpot_scene::{Diagnostics, ReadOptions, pose, read_models, with_paths};
 
 use crate::{
     error::CliError,
     folder::Folder,
-    input::load,
+    input::options,
     output::list,
     part::{can_write, write_text},
+    varied::messages,
     verbs::with_paths_of_sections,
 };
 
@@ -94,18 +95,9 @@ impl SceneText<'_> {
             with_paths_of_sections(&with_paths(self.text, &led_file), &led)
         };
         let otherwise = |reason| CliError::WrittenOtherwise { path: path.to_owned(), reason };
-        let read = |text: &str, file: &str| {
-            let options = ReadOptions {
-                file: Some(file),
-                set: self.set,
-                loader: Some(&load),
-                ..ReadOptions::default()
-            };
-            said(text, &options)
-        };
-        let again = read(&text, &path.to_string_lossy()).map_err(|faults| {
-            otherwise(list(faults.list.iter().map(Diagnostic::message)).join("; "))
-        })?;
+        let read = |text: &str, file: &str| said(text, &options(Some(file), self.set));
+        let again = read(&text, &path.to_string_lossy());
+        let again = again.map_err(|faults| otherwise(messages(&faults)))?;
         if text != self.text && read(self.text, self.file).is_ok_and(|own| own != again) {
             return Err(otherwise("its numbers are others there".to_owned()));
         }

@@ -225,8 +225,7 @@ fn law(own: &dyn Element) -> SketchLaw {
     }
 }
 
-/// The drawing of a model; contacts are drawn as what the effect makes of them that has put it
-/// there.
+/// The drawing of a model; contacts are drawn as what the effect makes of them that has put it there.
 fn tree(model: &Tree<Arc<dyn Element>>, effect: Option<&'static str>) -> SketchTree {
     let parts = |branches: &[dashpot_rheology::Branch<Arc<dyn Element>>]| {
         branches.iter().map(|branch| tree(&branch.tree, effect)).collect()

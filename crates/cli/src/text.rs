@@ -138,8 +138,7 @@ fn numbered(table: &Table) -> Table {
     }
 }
 
-/// The rows of a table as lines of at most `width` columns: where they do not fit, the last column is
-/// wrapped.
+/// The rows of a table as lines of at most `width` columns: where they do not fit, the last column is wrapped.
 pub(crate) fn fitted(table: &Table, width: usize) -> Vec<String> {
     let (_, lines) = self::table(table);
     let count = table.rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -197,12 +196,8 @@ pub(crate) fn columns(text: &str) -> usize {
 }
 
 fn is_numeric(table: &Table, column: usize) -> bool {
-    let mut cells = table
-        .rows
-        .iter()
-        .filter_map(|row| row.get(column))
-        .filter(|cell| !cell.is_empty() && cell.as_str() != "–")
-        .peekable();
+    let cells = table.rows.iter().filter_map(|row| row.get(column));
+    let mut cells = cells.filter(|cell| !cell.is_empty() && cell.as_str() != "–").peekable();
     let is_number = |cell: &String| {
         let digits = cell.trim_start_matches(['-', '±', '<', ' ']);
         digits.starts_with(|first: char| first.is_ascii_digit())

@@ -99,13 +99,17 @@ pub(crate) fn messages(faults: &Diagnostics) -> String {
     list(faults.list.iter().map(Diagnostic::message)).join("; ")
 }
 
-/// A scene with what is asked of its run: by a method that is wanted, or the only one of the scene.
-pub(crate) fn point(posed: Posed, method: Option<&str>) -> Result<ScenePoint, String> {
-    let method = match (method, &posed.run.methods[..]) {
+/// The method that is wanted, or else the only one of the scene.
+pub(crate) fn method<'m>(posed: &'m Posed, wanted: Option<&'m str>) -> &'m str {
+    match (wanted, &posed.run.methods[..]) {
         (Some(wanted), _) => wanted,
         (None, [only]) => only,
         _ => "auto",
-    };
-    let settings = posed.settings(method).map_err(|error| error.to_string())?;
+    }
+}
+
+/// A scene with what is asked of its run, by its [`method`].
+pub(crate) fn point(posed: Posed, wanted: Option<&str>) -> Result<ScenePoint, String> {
+    let settings = posed.settings(method(&posed, wanted)).map_err(|error| error.to_string())?;
     Ok(ScenePoint { network: posed.network, settings })
 }

@@ -46,12 +46,9 @@ pub fn outline(text: &str, set: &[(String, String)]) -> Vec<OutlineRow> {
     let sections = root.as_ref().and_then(Item::table).unwrap_or(&[]);
     let mut rows = Vec::new();
     for section in sections {
+        let outline = Outline { text, section: &section.key, set };
         for entry in section.item.table().unwrap_or(&[]) {
-            Outline { text, section: &section.key, set }.add(
-                entry.key.to_string(),
-                entry,
-                &mut rows,
-            );
+            outline.add(entry.key.to_string(), entry, &mut rows);
         }
     }
     rows

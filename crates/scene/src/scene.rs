@@ -31,6 +31,7 @@ use crate::{
         source::{Place, Source, set_source},
         table::{text_of, unknown_key},
     },
+    units::Quantity,
     vary::{scatter::ScatteredNumber, set::Settled, together, tunable::TunableFault},
 };
 
@@ -454,16 +455,12 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     notes.extend(weightless(&network));
     notes.extend(upward(&network));
     notes.extend(library.table_notes());
-    let mut values: Vec<NamedValue> = library
-        .values()
-        .iter()
-        .filter_map(|(name, known)| {
-            let quantity = known.quantity?;
-            let (value, dimension) = (quantity.value, quantity.dimension);
-            let text = known.definition.as_ref()?.text.trim().to_owned();
-            Some(NamedValue { name: name.clone(), value, dimension, text })
-        })
-        .collect();
+    let values = library.values().iter().filter_map(|(name, known)| {
+        let Quantity { value, dimension, .. } = known.quantity?;
+        let text = known.definition.as_ref()?.text.trim().to_owned();
+        Some(NamedValue { name: name.clone(), value, dimension, text })
+    });
+    let mut values: Vec<NamedValue> = values.collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
     let scatter = ScatteredNumber::all(&source.text, options.file).unwrap_or_default();
     note_held(&reading, &assembly.held);

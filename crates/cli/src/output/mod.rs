@@ -74,6 +74,26 @@ pub(crate) fn list<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     items.into_iter().collect()
 }
 
+/// Items that are alike in groups, in the order of their first ones.
+pub(crate) fn alike<T>(
+    items: impl IntoIterator<Item = T>,
+    is_alike: impl Fn(&T, &T) -> bool,
+) -> Vec<Vec<T>> {
+    let mut all: Vec<Vec<T>> = Vec::new();
+    for item in items {
+        match all.iter_mut().find(|group| is_alike(&group[0], &item)) {
+            Some(group) => group.push(item),
+            None => all.push(vec![item]),
+        }
+    }
+    all
+}
+
+/// Each item where it stands first.
+pub(crate) fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    list(alike(items, T::eq).into_iter().filter_map(|group| group.into_iter().next()))
+}
+
 /// A map in an order of its own.
 pub(crate) struct Pairs<K, V>(Vec<(K, V)>);
 
@@ -97,9 +117,9 @@ pub(crate) trait Study {
     /// The object for programs: what `--json` prints, and what a folder holds as its result.
     fn object(&self) -> impl Serialize;
 
-    /// A table for programs that is printed where no folder is asked for, in place of the text; `None` where this
+    /// Writes a table for programs that is printed where no folder is asked for, in place of the text; `None` where this
     /// terminal is read by people.
-    fn data(&self, _terminal: Terminal) -> Option<String> {
+    fn data(&self, _terminal: Terminal, _out: &mut Vec<u8>) -> Option<()> {
         None
     }
 
@@ -131,7 +151,11 @@ pub(crate) fn emit(
         return Err(CliError::Ended);
     }
     let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
-    let data = || study.data(terminal).filter(|_| folder.is_none());
+    let data = || {
+        let mut bytes = Vec::new();
+        study.data(terminal, &mut bytes).filter(|()| folder.is_none())?;
+        String::from_utf8(bytes).ok()
+    };
     let data = if json { Some(object()?) } else { data() };
     if data.is_some() || !terminal.is_one {
         study.warnings().iter().for_each(|own| terminal.warn(own));

@@ -129,8 +129,7 @@ fn shipped(shipped: &Shipped) -> Entry {
     Entry::plain(shipped.name, shipped.summary)
 }
 
-/// The text of a scene in lines of at most `room` columns, broken behind commas, where it may be read in
-/// so.
+/// The text of a scene in lines of at most `room` columns, broken behind commas, where it may be read in so.
 fn parted(example: &str, room: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for part in example.split_inclusive(", ") {

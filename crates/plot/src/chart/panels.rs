@@ -76,18 +76,14 @@ mod tests {
             assert_eq!(svg.matches("time (ms)").count(), 1);
             assert!(svg.contains("left (N)") && svg.contains("force (N)"));
             assert!(!svg.contains(">\nleft\n"), "the title of the lower chart");
-            let borders: Vec<(&str, &str)> = svg
-                .split("class=\"axes\"")
-                .skip(1)
-                .map(|own| {
-                    let points = own.rsplit("<polyline").find(|own| own.contains("#1F2933"));
-                    let list = points.unwrap().split("points=\"").nth(1).unwrap();
-                    let mut each = list.split('"').next().unwrap().split_whitespace();
-                    let first = each.next().unwrap().split(',').next().unwrap();
-                    let last = each.next_back().unwrap().split(',').next().unwrap();
-                    (first, last)
-                })
-                .collect();
+            let border = |own: &'_ str| {
+                let points = own.rsplit("<polyline").find(|own| own.contains("#1F2933"));
+                let list = points.unwrap().split("points=\"").nth(1).unwrap();
+                let each = list.split('"').next().unwrap().split_whitespace();
+                let x = |point: &str| point.split(',').next().unwrap().to_owned();
+                (x(each.clone().next().unwrap()), x(each.clone().next_back().unwrap()))
+            };
+            let borders: Vec<_> = svg.split("class=\"axes\"").skip(1).map(border).collect();
             assert_eq!(borders.len(), 2);
             assert_eq!(borders[0], borders[1]);
         }

@@ -32,35 +32,33 @@ pub(super) struct Field {
 impl Field {
     /// `shares` have `columns` in each row; what is not finite is missing.
     pub(super) fn new(shares: Vec<f64>, columns: usize) -> Self {
-        let rows = shares.len().checked_div(columns).unwrap_or(0);
-        let mut field = Self { shares, columns, rows, smooth: Vec::new() };
-        for row in 1..rows {
-            for column in 1..columns {
-                let (i, j) = (column - 1, row - 1);
-                let corners = [(i, j), (column, j), (column, row), (i, row)];
-                let is_known = corners.iter().all(|own| field.at(*own).is_finite());
-                let is_even = !(field.jumps((i, j), false)
-                    || field.jumps((i, row), false)
-                    || field.jumps((i, j), true)
-                    || field.jumps((column, j), true));
-                field.smooth.push(is_known && is_even);
-            }
-        }
-        field
+        Self::with(shares, columns, |field, (i, j)| {
+            let sides = [(i, j, false), (i, j + 1, false), (i, j, true), (i + 1, j, true)];
+            !sides.into_iter().any(|(column, row, is_up)| field.jumps((column, row), is_up))
+        })
     }
 
     /// The same where no step counts as a jump.
     pub(super) fn whole(shares: Vec<f64>, columns: usize) -> Self {
-        let mut field = Self::new(shares, columns);
-        for row in 1..field.rows {
-            for column in 1..field.columns {
-                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
-                let at = |own: &(usize, usize)| field.at((column - own.0, row - own.1));
-                let is_known = corners.iter().all(|own| at(own).is_finite());
-                field.smooth[(row - 1) * (field.columns - 1) + column - 1] = is_known;
-            }
-        }
-        field
+        Self::with(shares, columns, |_, _| true)
+    }
+
+    fn with(
+        shares: Vec<f64>,
+        columns: usize,
+        is_even: impl Fn(&Self, (usize, usize)) -> bool,
+    ) -> Self {
+        let rows = shares.len().checked_div(columns).unwrap_or(0);
+        let field = Self { shares, columns, rows, smooth: Vec::new() };
+        let is_known = |own| corners(own).iter().all(|own| field.at(*own).is_finite());
+        let smooth = field.squares().map(|own| is_known(own) && is_even(&field, own)).collect();
+        Self { smooth, ..field }
+    }
+
+    /// The lowest corners of all squares, row by row.
+    fn squares(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let (columns, rows) = (self.columns.saturating_sub(1), self.rows.saturating_sub(1));
+        (0..rows).flat_map(move |row| (0..columns).map(move |column| (column, row)))
     }
 
     /// The value at a point; beyond the grid none.
@@ -97,35 +95,22 @@ impl Field {
     /// The quarters of squares that are no part of a band: a point, and the middle of the square as
     /// (column, row) in steps of the grid.
     pub(super) fn blocks(&self) -> Vec<((usize, usize), (f64, f64))> {
-        let mut blocks = Vec::new();
-        for row in 1..self.rows {
-            for column in 1..self.columns {
-                let (i, j) = (column - 1, row - 1);
-                if self.is_smooth((i, j)) {
-                    continue;
-                }
-                let middle = (i as f64 + 0.5, j as f64 + 0.5);
-                let corners = [(i, j), (column, j), (column, row), (i, row)];
-                let known = corners.into_iter().filter(|own| self.at(*own).is_finite());
-                blocks.extend(known.map(|own| (own, middle)));
-            }
-        }
-        blocks
+        let rough = self.squares().filter(|own| !self.is_smooth(*own));
+        let of_square = |(i, j): (usize, usize)| {
+            let known = corners((i, j)).into_iter().filter(|own| self.at(*own).is_finite());
+            known.map(move |own| (own, (i as f64 + 0.5, j as f64 + 0.5)))
+        };
+        rough.flat_map(of_square).collect()
     }
 
     /// The outlines of where values are at least `level` and run smoothly, as places in steps of the grid; each ends
     /// where it begins. Values run straight along the sides of squares.
     pub(super) fn region(&self, level: f64) -> Vec<Vec<(f64, f64)>> {
         let mut steps: BTreeMap<Corner, Vec<Corner>> = BTreeMap::new();
-        for row in 1..self.rows {
-            for column in 1..self.columns {
-                if self.is_smooth((column - 1, row - 1)) {
-                    for outline in self.within((column - 1, row - 1), level) {
-                        for at in 0..outline.len() {
-                            walk(&mut steps, outline[at], outline[(at + 1) % outline.len()]);
-                        }
-                    }
-                }
+        let smooth = self.squares().filter(|own| self.is_smooth(*own));
+        for outline in smooth.flat_map(|own| self.within(own, level)) {
+            for at in 0..outline.len() {
+                walk(&mut steps, outline[at], outline[(at + 1) % outline.len()]);
             }
         }
         let mut outlines = Vec::new();
@@ -147,7 +132,7 @@ impl Field {
 
     /// The parts of one square in which values are at least `level`, each run around in the same sense.
     fn within(&self, (i, j): (usize, usize), level: f64) -> Vec<Vec<Corner>> {
-        let points = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+        let points = corners((i, j));
         let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
         let values = points.map(|own| self.at(own));
         let above = values.map(|own| own >= level);
@@ -185,6 +170,11 @@ impl Field {
             }
         }
     }
+}
+
+/// The corners of the square whose lowest one this is, around it.
+fn corners((i, j): (usize, usize)) -> [(usize, usize); 4] {
+    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
 }
 
 /// Takes a step along an outline, which a step the other way, of the square beside, takes back.

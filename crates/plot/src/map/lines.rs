@@ -67,14 +67,8 @@ impl Map {
         for outline in region {
             let places: Vec<(f64, f64)> =
                 outline.into_iter().map(|own| self.place(frame, own)).collect();
-            for (at, place) in straightened(&places).into_iter().enumerate() {
-                let _ = write!(
-                    data,
-                    "{}{:.1} {:.1}",
-                    if at == 0 { "M" } else { "L" },
-                    place.0,
-                    place.1
-                );
+            for (at, (x, y)) in straightened(&places).into_iter().enumerate() {
+                let _ = write!(data, "{}{x:.1} {y:.1}", if at == 0 { "M" } else { "L" });
             }
             data.push('Z');
         }

@@ -266,22 +266,14 @@ impl Map {
         for &tick in frame.x.ticks() {
             let (at, _) = frame.at(tick, y0.unwrap_or(1.0));
             draw_path(svg, &[(at, bottom), (at, bottom + theme::MINOR_LENGTH)]);
-            texts.push(text(
-                (at, bottom + 18.0),
-                "middle",
-                theme::TICK_SIZE,
-                &frame.x.tick_label(tick),
-            ));
+            let label = frame.x.tick_label(tick);
+            texts.push(text((at, bottom + 18.0), "middle", theme::TICK_SIZE, &label));
         }
         for &tick in frame.y.ticks() {
             let (_, at) = frame.at(x0.unwrap_or(1.0), tick);
             draw_path(svg, &[(left - theme::MINOR_LENGTH, at), (left, at)]);
-            texts.push(text(
-                (left - 8.0, at + 4.5),
-                "end",
-                theme::TICK_SIZE,
-                &frame.y.tick_label(tick),
-            ));
+            let label = frame.y.tick_label(tick);
+            texts.push(text((left - 8.0, at + 4.5), "end", theme::TICK_SIZE, &label));
         }
         svg.push_str("</g>\n");
         let _ = writeln!(svg, "<g class=\"texts\" fill=\"{}\">", theme::FAINT.hex());

@@ -194,12 +194,8 @@ impl Table {
 
     /// Whether a column holds numbers only, which are set to the right.
     fn is_numeric(&self, column: usize) -> bool {
-        let mut cells = self
-            .rows
-            .iter()
-            .filter_map(|row| row.get(column))
-            .filter(|cell| !cell.is_empty())
-            .peekable();
+        let cells = self.rows.iter().filter_map(|row| row.get(column));
+        let mut cells = cells.filter(|cell| !cell.is_empty()).peekable();
         let is_number = |cell: &String| {
             let digits = cell.trim_start_matches(['-', '−', '+', '±', '<', '≤', ' ']);
             digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(cell.as_str(), "–" | "—")

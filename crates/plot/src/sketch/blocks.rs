@@ -27,14 +27,13 @@ impl Sizes<'_> {
     /// Extent of a whole tree around its connecting line.
     pub(super) fn extent(&self, tree: &SketchTree) -> Extent {
         match tree {
-            SketchTree::Series(parts) if !parts.is_empty() => parts
-                .iter()
-                .map(|part| self.extent(part))
-                .fold(Extent::default(), |sum, part| Extent {
-                    width: sum.width + part.width,
-                    up: sum.up.max(part.up),
-                    down: sum.down.max(part.down),
-                }),
+            SketchTree::Series(parts) if !parts.is_empty() => {
+                let all = parts.iter().map(|part| self.extent(part));
+                all.fold(Extent::default(), |sum, part| {
+                    let (up, down) = (sum.up.max(part.up), sum.down.max(part.down));
+                    Extent { width: sum.width + part.width, up, down }
+                })
+            }
             SketchTree::Parallel(branches) if !branches.is_empty() => {
                 let (lines, extents) = self.branches(branches);
                 let (first, last) = (lines[0], lines[lines.len() - 1]);

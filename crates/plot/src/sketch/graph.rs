@@ -44,18 +44,13 @@ pub(super) fn parts(sketch: &Sketch) -> Vec<Part> {
     let mut roots = part_of.clone();
     roots.sort_unstable();
     roots.dedup();
-    roots
-        .into_iter()
-        .map(|root| {
-            let members: Vec<usize> = (0..nodes.len()).filter(|v| part_of[*v] == root).collect();
-            let local = |v: usize| members.iter().position(|m| *m == v);
-            let inner: Vec<(usize, usize, usize)> = ends
-                .iter()
-                .filter_map(|&(link, from, to)| Some((link, local(from)?, local(to)?)))
-                .collect();
-            layered(members.iter().map(|v| nodes[*v]).collect(), &inner)
-        })
-        .collect()
+    let part = |root: usize| {
+        let members: Vec<usize> = (0..nodes.len()).filter(|v| part_of[*v] == root).collect();
+        let local = |v: usize| members.iter().position(|m| *m == v);
+        let inner = ends.iter().filter_map(|own| Some((own.0, local(own.1)?, local(own.2)?)));
+        layered(members.iter().map(|v| nodes[*v]).collect(), &inner.collect::<Vec<_>>())
+    };
+    roots.into_iter().map(part).collect()
 }
 
 /// Drawn nodes as indices of the sketch's nodes, and links as (link, from, to) between drawn nodes.
@@ -112,14 +107,12 @@ fn layered(nodes: Vec<usize>, ends: &[(usize, usize, usize)]) -> Part {
     for (position, v) in order.iter().enumerate() {
         rank[*v] = position;
     }
-    let links: Vec<DrawnLink> = ends
-        .iter()
-        .map(|&(link, from, to)| {
-            let reversed = rank[from] > rank[to];
-            let (left, right) = if reversed { (to, from) } else { (from, to) };
-            DrawnLink { link, left, right, reversed }
-        })
-        .collect();
+    let drawn = |&(link, from, to): &(usize, usize, usize)| {
+        let reversed = rank[from] > rank[to];
+        let (left, right) = if reversed { (to, from) } else { (from, to) };
+        DrawnLink { link, left, right, reversed }
+    };
+    let links: Vec<DrawnLink> = ends.iter().map(drawn).collect();
 
     let mut layer = vec![0; count];
     for v in &order {

@@ -38,17 +38,13 @@ pub(super) fn heights(vertices: &[Vertex], gap: f64) -> Vec<f64> {
         for step in 0..count {
             let column = &columns[if from_left { step } else { count - 1 - step }];
             // Towards one side while things move, towards both in the end.
-            let wishes: Vec<f64> = column
-                .iter()
-                .map(|v| {
-                    let vertex = &vertices[*v];
-                    let is_late = sweep + 2 >= SWEEPS;
-                    let left = (from_left || is_late).then_some(&vertex.left).into_iter().flatten();
-                    let right =
-                        (!from_left || is_late).then_some(&vertex.right).into_iter().flatten();
-                    mean(left.chain(right).map(|n| heights[*n])).unwrap_or(heights[*v])
-                })
-                .collect();
+            let is_late = sweep + 2 >= SWEEPS;
+            let wish = |v: &usize| {
+                let left = vertices[*v].left.iter().filter(|_| from_left || is_late);
+                let right = vertices[*v].right.iter().filter(|_| !from_left || is_late);
+                mean(left.chain(right).map(|n| heights[*n])).unwrap_or(heights[*v])
+            };
+            let wishes: Vec<f64> = column.iter().map(wish).collect();
             settle(vertices, column, &wishes, gap, &mut heights);
         }
     }
@@ -116,14 +112,11 @@ fn sort_by_neighbours(vertices: &[Vertex], columns: &mut [Vec<usize>], from_left
     for step in 0..count {
         let index = if from_left { step } else { count - 1 - step };
         let column = &mut columns[index];
-        let mut keyed: Vec<(f64, usize)> = column
-            .iter()
-            .enumerate()
-            .map(|(own, v)| {
-                let neighbours = if from_left { &vertices[*v].left } else { &vertices[*v].right };
-                (mean(neighbours.iter().map(|n| place[*n])).unwrap_or(own as f64), *v)
-            })
-            .collect();
+        let key = |(own, v): (usize, &usize)| {
+            let neighbours = if from_left { &vertices[*v].left } else { &vertices[*v].right };
+            (mean(neighbours.iter().map(|n| place[*n])).unwrap_or(own as f64), *v)
+        };
+        let mut keyed: Vec<(f64, usize)> = column.iter().enumerate().map(key).collect();
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
         *column = keyed.into_iter().map(|(_, v)| v).collect();
         for (position, v) in column.iter().enumerate() {

@@ -138,21 +138,18 @@ impl Sketch {
     }
 }
 
+fn has_frame(node: &SketchNode) -> bool {
+    matches!(node.kind, SketchKind::Mass | SketchKind::Prescribed)
+}
+
 fn draw_node(grid: &mut Grid, node: &SketchNode, placed: &Placed) {
     let Extent { width, up, down } = placed.extent;
     let top = placed.y - up;
-    match node.kind {
-        SketchKind::Mass | SketchKind::Prescribed => {
-            grid.frame((placed.x, top), (width, up + down + 1.0));
-        }
-        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {}
+    let mut row = placed.y;
+    if has_frame(node) {
+        grid.frame((placed.x, top), (width, up + down + 1.0));
+        row = top + 1.0;
     }
-    let mut row = match node.kind {
-        SketchKind::Mass | SketchKind::Prescribed => top + 1.0,
-        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {
-            placed.y
-        }
-    };
     for line in inscription(node, placed.wired.1) {
         let start = match node.kind {
             SketchKind::Fixed if placed.wired.1 => placed.x + width - columns(&line),
@@ -183,15 +180,11 @@ fn node_extent(node: &SketchNode) -> Extent {
     let lines = inscription(node, false);
     let widest = lines.iter().map(|line| columns(line)).fold(0.0, f64::max);
     let count = lines.iter().fold(0.0, |n, _| n + 1.0);
-    match node.kind {
-        SketchKind::Mass | SketchKind::Prescribed => {
-            let up = f64::midpoint(count, 1.0).floor();
-            Extent { width: widest + 2.0, up, down: count + 1.0 - up }
-        }
-        SketchKind::Fixed | SketchKind::Massless | SketchKind::Face | SketchKind::HeavyFace => {
-            Extent { width: widest, up: 0.0, down: count - 1.0 }
-        }
+    if !has_frame(node) {
+        return Extent { width: widest, up: 0.0, down: count - 1.0 };
     }
+    let up = f64::midpoint(count, 1.0).floor();
+    Extent { width: widest + 2.0, up, down: count + 1.0 - up }
 }
 
 fn leaf_extent(leaf: &SketchTree) -> Extent {
@@ -252,11 +245,9 @@ impl Grid {
 
     /// A straight horizontal or vertical line, both ends included.
     pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
-        let (horizontal, start, end) = if (from.1 - to.1).abs() < 0.5 {
-            (true, from.0.min(to.0), from.0.max(to.0))
-        } else {
-            (false, from.1.min(to.1), from.1.max(to.1))
-        };
+        let horizontal = (from.1 - to.1).abs() < 0.5;
+        let (one, other) = if horizontal { (from.0, to.0) } else { (from.1, to.1) };
+        let (start, end) = (one.min(other), one.max(other));
         let (backward, forward) = if horizontal { (LEFT, RIGHT) } else { (UP, DOWN) };
         let mut place = start;
         while place <= end {

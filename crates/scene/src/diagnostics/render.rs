@@ -28,9 +28,8 @@ impl Diagnostics {
         self.render_within(color, usize::MAX)
     }
 
-    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are
-    /// cut around what is at fault. Of many faults of one kind in a file the first ones are shown, and where the
-    /// others are.
+    /// The same in `width` columns: messages, notes and help are wrapped, and long lines of the text are cut around
+    /// what is at fault. Of many faults of one kind in a file the first ones are shown, and where the others are.
     pub fn render_within(&self, color: bool, width: usize) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let renderer = renderer.term_width(width.min(DEFAULT_TERM_WIDTH));

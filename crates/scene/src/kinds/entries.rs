@@ -41,12 +41,9 @@ impl<'d> KindReader<'d> {
         let required = parameters.iter().filter(|known| known.default.is_none()).count();
         let is_table = item.table().is_some();
         if required == 1 && (!is_table || parameters.len() == 1) {
-            let read = |parameter: &Parameter| {
-                if parameter.default.is_none() {
-                    self.value(parameter, item)
-                } else {
-                    self.default(parameter)
-                }
+            let read = |parameter: &Parameter| match parameter.default {
+                None => self.value(parameter, item),
+                Some(_) => self.default(parameter),
             };
             let values = parameters.iter().map(read).collect::<Option<Vec<_>>>()?;
             return Some((values, vec![(item.place, Some(item)); parameters.len()]));
@@ -66,29 +63,18 @@ impl<'d> KindReader<'d> {
         let mut places = Vec::with_capacity(parameters.len());
         let mut values = Vec::with_capacity(parameters.len());
         for parameter in parameters {
-            let entry = match parameter.default {
-                None => {
-                    let value = self.example().value(std::slice::from_ref(parameter));
-                    let entry =
-                        table.require(parameter.name, &format!("{} = {value}", parameter.name));
-                    places.push(given(entry, place));
-                    let before = values.last().and_then(Option::as_ref);
-                    let value =
-                        entry.and_then(|entry| self.value_after(parameter, &entry.item, before));
-                    values.push(value);
-                    continue;
-                }
-                Some(_) => table.take(parameter.name),
-            };
+            let entry = self.entry(parameter, &table);
             places.push(given(entry, place));
-            if is_size(parameter) {
-                let size = self.size_of(parameter, entry, (word, place));
-                values.push(size.map(Value::Number));
-                continue;
-            }
+            let before = values.last().and_then(Option::as_ref);
             values.push(match entry {
+                _ if parameter.default.is_some() && is_size(parameter) => {
+                    self.size_of(parameter, entry, (word, place)).map(Value::Number)
+                }
+                Some(entry) if parameter.default.is_none() => {
+                    self.value_after(parameter, &entry.item, before)
+                }
                 Some(entry) => self.value(parameter, &entry.item),
-                None => self.default(parameter),
+                None => parameter.default.as_ref().and_then(|_| self.default(parameter)),
             });
         }
         table.finish();
@@ -149,19 +135,22 @@ impl<'d> KindReader<'d> {
         table: &Table<'i>,
         place: Place,
     ) -> (Option<Value>, Given<'i>) {
-        let entry = match parameter.default {
-            None => {
-                let value = self.example().value(std::slice::from_ref(parameter));
-                table.require(parameter.name, &format!("{} = {value}", parameter.name))
-            }
-            Some(_) => table.take(parameter.name),
-        };
+        let entry = self.entry(parameter, table);
         let value = match (entry, parameter.default) {
             (Some(entry), _) => self.value(parameter, &entry.item),
             (None, None) => None,
             (None, Some(_)) => self.default(parameter),
         };
         (value, given(entry, place))
+    }
+
+    /// What a table says of a parameter; one without a default has to be there.
+    fn entry<'i>(self, parameter: &Parameter, table: &Table<'i>) -> Option<&'i Entry> {
+        if parameter.default.is_some() {
+            return table.take(parameter.name);
+        }
+        let value = self.example().value(std::slice::from_ref(parameter));
+        table.require(parameter.name, &format!("{} = {value}", parameter.name))
     }
 
     /// A value that may depend on that of the parameter before it, as unloading does on loading.

@@ -88,8 +88,7 @@ impl<'d> KindReader<'d> {
         }
     }
 
-    /// `fault`, which is about the value `item`, with the part of one that was probably meant by a
-    /// number of percent.
+    /// `fault`, which is about the value `item`, with the part of one that was probably meant by a number of percent.
     pub(super) fn as_part(self, fault: Fault, item: &Item, fits: impl Fn(f64) -> bool) -> Fault {
         match self.quantities.peek(item) {
             Some(value) if self.quantities.is_bare(item) && value > 1.0 && fits(value / 100.0) => {

@@ -83,8 +83,7 @@ pub(super) struct ContextReader<'d> {
 impl<'d> ContextReader<'d> {
     /// The context of the law in `site`, and the shift that stands there.
     ///
-    /// Where a key is faulty it is left out: the error has been noted, and the rest of the model is
-    /// still looked at.
+    /// Where a key is faulty it is left out: the error has been noted, and the rest of the model is still looked at.
     pub(super) fn read(
         &self,
         site: &Site<'d>,

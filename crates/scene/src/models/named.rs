@@ -39,8 +39,7 @@ pub struct NamedModel {
     pub is_material: bool,
     /// What is to be said about it.
     pub notes: Vec<ModelNote>,
-    /// The bytes of the whole lines of the text on which it stands, from its header or key to its
-    /// last value.
+    /// The bytes of the whole lines of the text on which it stands, from its header or key to its last value.
     pub span: Range<usize>,
 }
 
@@ -50,9 +49,8 @@ enum Found<'d> {
     Element(&'d Entry),
 }
 
-/// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that
-/// of one of `[elements]`. `models.felt`, `materials.felt` and `elements.felt` tell models of one
-/// name apart.
+/// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that of one of
+/// `[elements]`. `models.felt`, `materials.felt` and `elements.felt` tell models of one name apart.
 ///
 /// Without a name it is the only model or material, else the model of the only element. What the
 /// text says besides is not looked at: it may be a scene, or a file of models alone.

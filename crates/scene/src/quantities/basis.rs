@@ -98,9 +98,8 @@ impl Basis {
         matches!(self, Self::Material(_))
     }
 
-    /// The dimension in which a quantity is written that has the dimension `in_model` in a model:
-    /// with a stress for each force and a strain for each length, N^f m^d s^k is Pa^f s^k in a
-    /// material.
+    /// The dimension in which a quantity is written that has the dimension `in_model` in a model: with a stress for
+    /// each force and a strain for each length, N^f m^d s^k is Pa^f s^k in a material.
     pub(crate) fn dimension(self, in_model: Dimension) -> Dimension {
         match self {
             Self::Model => in_model,

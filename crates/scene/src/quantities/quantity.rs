@@ -222,8 +222,7 @@ impl<'d> Quantities<'d> {
         }
     }
 
-    /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a
-    /// temperature.
+    /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a temperature.
     pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
         let value = self.read_quietly(item, Dimension::TEMPERATURE)?;
         if self.meant(item).is_some_and(|quantity| quantity.is_celsius) {

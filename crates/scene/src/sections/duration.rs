@@ -19,8 +19,7 @@ const AUTO: &str = "auto";
 /// The longest run \[s\] that is found, unless more is allowed.
 const AT_MOST: f64 = 1.0;
 
-/// The longest run \[s\] that may be found, where `duration` asks for it; it is an error beside a length that is
-/// given.
+/// The longest run \[s\] that may be found, where `duration` asks for it; it is an error beside a length that is given.
 pub(super) fn read_at_most(
     reading: &Reading<'_>,
     table: &Table<'_>,

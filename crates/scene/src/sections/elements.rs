@@ -115,14 +115,10 @@ pub(super) fn read_layers<'d>(
         return None;
     }
     // Every layer is read, so that all faults are found.
-    let all: Vec<Option<Layer>> = items
-        .iter()
-        .enumerate()
-        .map(|(at, item)| {
-            let owner = format!("layer {} of {}", at + 1, element.owner);
-            read_layer(reading, models, owner, item)
-        })
-        .collect();
+    let layer = |(at, item)| {
+        read_layer(reading, models, format!("layer {} of {}", at + 1, element.owner), item)
+    };
+    let all: Vec<Option<Layer>> = items.iter().enumerate().map(layer).collect();
     Some(Layers { all: all.into_iter().collect::<Option<_>>()?, resolution: resolution? })
 }
 

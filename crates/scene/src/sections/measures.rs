@@ -165,8 +165,7 @@ fn read_table<'d>(
 pub(crate) struct Targets<'r, 'd> {
     reading: &'r Reading<'d>,
     network: &'r Network,
-    /// Names that are not in the text, once one is asked for; none where the effects have no place
-    /// in the network.
+    /// Names that are not in the text, once one is asked for; none where the effects have no place in the network.
     made: OnceCell<Option<Vec<(String, Family)>>>,
 }
 

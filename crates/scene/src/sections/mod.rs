@@ -99,8 +99,7 @@ impl<'d> Reading<'d> {
         self.faults.missing(place, Fault::UnknownName { family, name: name.to_owned(), known });
     }
 
-    /// A driving function, `{ half-sine = { … } }` or `{ table = "pulse.csv" }`, of what is measured
-    /// in `driven`.
+    /// A driving function, `{ half-sine = { … } }` or `{ table = "pulse.csv" }`, of what is measured in `driven`.
     pub(crate) fn waveform(
         &self,
         entry: &'d Entry,

@@ -34,8 +34,7 @@ pub struct RunSettings {
     pub at_most: Option<f64>,
     /// Points of the output grid, 1 … 10⁷; the solution does not depend on it.
     pub samples: usize,
-    /// Whether the scene says how many: they then lie at regular times, else where they resolve
-    /// short contacts.
+    /// Whether the scene says how many: they then lie at regular times, else where they resolve short contacts.
     pub samples_given: bool,
     /// Names of the methods, one or more; `auto` chooses.
     pub methods: Vec<String>,

@@ -92,8 +92,7 @@ impl<'t> Field<'t> {
         number_and_rest(self.text).is_some()
     }
 
-    /// Whether the field is a number or was meant as one: with a unit, not finite, or with marks between
-    /// thousands.
+    /// Whether the field is a number or was meant as one: with a unit, not finite, or with marks between thousands.
     pub(crate) fn is_like_number(&self) -> bool {
         let bare = self.text.trim_start_matches(SIGNS);
         if ["nan", "inf", "infinity"].into_iter().any(|word| bare.eq_ignore_ascii_case(word)) {

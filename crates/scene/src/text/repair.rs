@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use crate::diagnostics::{fault::Fault, fault_help::comma_help};
 
-/// The text with all its slips put right, byte for byte as long as `text`, and the slips with
-/// their bytes.
+/// The text with all its slips put right, byte for byte as long as `text`, and the slips with their bytes.
 ///
 /// Known are decimal commas in bare numbers and pairs of texts without brackets.
 pub(crate) fn repaired(text: &str) -> (String, Vec<(Range<usize>, Fault)>) {

@@ -148,8 +148,7 @@ fn write_kind_in(
     format!("{word} = {{ {} }}", write_pairs(basis, parameters, values, driven).join(", "))
 }
 
-/// The values of parameters as `name = …`, each; those that follow from the rest of a scene are left
-/// out.
+/// The values of parameters as `name = …`, each; those that follow from the rest of a scene are left out.
 pub(crate) fn write_pairs(
     basis: Basis,
     parameters: &[Parameter],
@@ -226,8 +225,7 @@ fn write_element(element: &dyn Element, basis: Basis) -> String {
     write_kind_in(basis, own, Dimension::FORCE)
 }
 
-/// A value; numbers, and the second ones of pairs, are of this dimension, the first ones of pairs of
-/// that `beside`.
+/// A value; numbers, and the second ones of pairs, are of this dimension, the first ones of pairs of that `beside`.
 fn write_value(value: &Value, dimension: Dimension, beside: Dimension) -> String {
     let quantity = |value: f64, dimension| match dimension {
         Dimension::NUMBER => format!("{:?}", tidy(value)),

@@ -10,9 +10,8 @@ use crate::text::library::{
     tables::{FILE, words_of_points},
 };
 
-/// The text where each path in `table-spring = "path"`, `file = "path"`, `model = "path:name"` and
-/// `material = "path:name"` stands as `renamed` says; where that is `None` it stays. All else, comments included, is as
-/// it was.
+/// The text where each path in `table-spring = "path"`, `file = "path"`, `model = "path:name"` and `material =
+/// "path:name"` stands as `renamed` says; where that is `None` it stays. All else, comments included, is as it was.
 ///
 /// # Examples
 ///

@@ -9,10 +9,9 @@ use crate::NamedModel;
 /// What an element keeps when its model is replaced.
 const KEPT: [&str; 2] = ["between", "thickness"];
 
-/// `text` with `model` in the place of `named`, which was read from it. All else stays as it is,
-/// and comments within the old model stand, together with `comment`, before the new one. An older
-/// comment that begins with the same two words, and goes on with the same two after its semicolon,
-/// is what an earlier rewriting said, and is replaced.
+/// `text` with `model` in the place of `named`, which was read from it. All else stays as it is, and comments within
+/// the old model stand, together with `comment`, before the new one. An older comment that begins with the same two
+/// words, and goes on with the same two after its semicolon, is what an earlier rewriting said, and is replaced.
 ///
 /// `None` where the text does not have this model.
 ///

@@ -52,8 +52,7 @@ pub(crate) struct CostArguments {
     /// Most work of each solution, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     budget: Option<u64>,
-    /// How often each solution is repeated for its time [default: the more often, the fewer steps
-    /// it has].
+    /// How often each solution is repeated for its time [default: the more often, the fewer steps it has].
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..))]
     repeat: Option<u16>,
     /// Folder for CSV, JSON, SVG and HTML; it is made if need be.

@@ -9,7 +9,10 @@ use dashpot_analysis::work_precision::{
 use dashpot_plot::Table;
 
 use super::{subject, tolerance, wish};
-use crate::numbers::{duration, significant};
+use crate::{
+    numbers::{duration, significant},
+    output::{alike, list},
+};
 
 /// What does not exist.
 const NONE: &str = "–";
@@ -200,18 +203,12 @@ pub(super) fn reference_notes(report: &CostReport) -> Vec<String> {
 
 /// Methods that decline, and solutions that failed; errors in the same words once.
 pub(super) fn failures(report: &CostReport) -> Vec<String> {
-    let mut groups: Vec<(&CostFailure, Vec<String>)> = Vec::new();
-    for failure in &report.failures {
-        let is_same = |other: &CostFailure| {
-            let is_alike = other.error == failure.error && failure.rtol.is_some() && !failure.ends;
-            other.method == failure.method && is_alike
-        };
-        match groups.iter_mut().find(|(other, _)| is_same(other)) {
-            Some((_, rtols)) => rtols.push(tolerance(failure.rtol)),
-            None => groups.push((failure, vec![tolerance(failure.rtol)])),
-        }
-    }
-    let sentence = |(own, rtols): (&CostFailure, Vec<String>)| {
+    let is_same = |one: &&CostFailure, own: &&CostFailure| {
+        let is_alike = one.error == own.error && own.rtol.is_some() && !own.ends;
+        one.method == own.method && is_alike
+    };
+    let sentence = |group: &Vec<&CostFailure>| {
+        let (own, rtols) = (group[0], list(group.iter().map(|own| tolerance(own.rtol))));
         let (method, error) = (own.method, &own.error);
         let rest = if own.ends { "; finer tolerances are not tried" } else { "" };
         match own.rtol {
@@ -219,25 +216,13 @@ pub(super) fn failures(report: &CostReport) -> Vec<String> {
             Some(_) => format!("{method} at {} failed: {error}{rest}", rtols.join(", ")),
         }
     };
-    groups.into_iter().map(sentence).collect()
+    alike(&report.failures, is_same).iter().map(sentence).collect()
 }
 
-/// Errors that a run does not tell of, the largest first; those of one method in one thing are told
-/// together.
+/// Errors that a run does not tell of, the largest first; those of one method in one thing are told together.
 pub(super) fn underestimated(report: &CostReport) -> Vec<String> {
-    let mut groups: Vec<Vec<&Underestimate>> = Vec::new();
-    for underestimate in &report.underestimates {
-        let is_alike = |other: &Underestimate| {
-            other.method == underestimate.method
-                && other.subject == underestimate.subject
-                && other.warned == underestimate.warned
-                && other.error.is_finite() == underestimate.error.is_finite()
-        };
-        match groups.iter_mut().find(|group| group.iter().all(|other| is_alike(other))) {
-            Some(group) => group.push(underestimate),
-            None => groups.push(vec![underestimate]),
-        }
-    }
+    let of = |own: &Underestimate| (own.method, own.subject, own.warned, own.error.is_finite());
+    let mut groups = alike(&report.underestimates, |one, other| of(one) == of(other));
     let worst = |group: &[&Underestimate]| group.iter().map(|own| own.error).fold(0.0, f64::max);
     groups.sort_by(|one, other| worst(other).total_cmp(&worst(one)));
     let mut lines: Vec<String> =

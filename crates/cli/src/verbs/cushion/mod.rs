@@ -201,10 +201,8 @@ impl Study for Drawn {
         text.items(words::notes(self));
     }
 
-    fn data(&self, _terminal: Terminal) -> Option<String> {
-        let mut bytes = Vec::new();
-        files::table(self, &mut bytes).ok().filter(|()| self.is_csv)?;
-        String::from_utf8(bytes).ok()
+    fn data(&self, _terminal: Terminal, out: &mut Vec<u8>) -> Option<()> {
+        files::table(self, out).ok().filter(|()| self.is_csv)
     }
 
     fn object(&self) -> impl Serialize {

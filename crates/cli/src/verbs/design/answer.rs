@@ -17,7 +17,7 @@ use crate::{
     folder::Staged,
     input::title,
     out::SceneText,
-    output::{Pairs, Study, Text, VERSION, list, object},
+    output::{Pairs, Study, Text, VERSION, each_once, list, object},
     verbs::run::{FloorTold, scatter},
 };
 
@@ -232,14 +232,9 @@ impl Study for Answer {
             Some(format!("{} has no design: {why}", list(chosen).join(", ")))
         });
         let missing = self.best().map(|own| words::missing(self, own.1));
-        let mut all: Vec<String> = list(missing.into_iter().flatten().chain(unsolved));
         let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
-        for warning in runs.flat_map(|run| &run.warnings).map(ToString::to_string) {
-            if !all.contains(&warning) {
-                all.push(warning);
-            }
-        }
-        all
+        let warned = runs.flat_map(|run| &run.warnings).map(ToString::to_string);
+        each_once(missing.into_iter().flatten().chain(unsolved).chain(warned))
     }
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {

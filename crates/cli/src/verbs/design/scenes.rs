@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dashpot_scene::{ModelNote, Scene, Tunables, read, units::si_unit};
+use dashpot_scene::{Scene, Tunables, read, units::si_unit};
 
 use super::{among::Among, asked::Asked};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     error::CliError,
     input::Input,
     operand::print_notes,
-    output::list,
+    output::{each_once, list},
     terminal::Terminal,
     varied::Varied,
 };
@@ -120,13 +120,7 @@ pub(super) fn tests(
 
 /// Says what there is to say about the models of all scenes, each thing once.
 pub(super) fn print_all_notes(scenes: &[TestScene]) {
-    let mut told: Vec<ModelNote> = Vec::new();
-    for own in scenes.iter().flat_map(|own| &own.scene.notes) {
-        if !told.contains(own) {
-            told.push(own.clone());
-        }
-    }
-    print_notes(&told);
+    print_notes(each_once(scenes.iter().flat_map(|own| &own.scene.notes)));
 }
 
 impl TestScene {

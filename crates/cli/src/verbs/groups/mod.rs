@@ -25,7 +25,7 @@ use crate::{
     numbers::{constant, significant},
     operand::{note_means, print_notes, read_scene},
     out::{SceneFile, SceneText},
-    output::{Study, Text, emit, list, object},
+    output::{Study, Text, alike, emit, list, object},
     terminal::{Terminal, note},
 };
 
@@ -214,14 +214,9 @@ impl Study for GroupsStudy {
 impl GroupsStudy {
     /// The groups that are not zero, those of the points of a curve together.
     fn table(&self) -> Table {
-        let mut rows: Vec<Vec<&Group>> = Vec::new();
-        for group in self.groups.groups.iter().filter(|group| group.value != 0.0) {
-            let own = &group.quantity.of_curve;
-            match rows.iter_mut().find(|row| own.is_some() && row[0].quantity.of_curve == *own) {
-                Some(row) => row.push(group),
-                None => rows.push(vec![group]),
-            }
-        }
+        let rows = alike(self.groups.groups.iter().filter(|own| own.value != 0.0), |one, other| {
+            one.quantity.of_curve.is_some() && one.quantity.of_curve == other.quantity.of_curve
+        });
         let row = |row: &Vec<&Group>| {
             let formula = row[0].formula.clone();
             let ends = [f64::min, f64::max].map(|end| row.iter().map(|own| own.value).reduce(end));

@@ -29,18 +29,12 @@ impl MeasuredLoop {
     pub(super) fn read(file: &str, units: Units) -> Result<Self, CliError> {
         let own = MeasuredFile::read("--measured", file)?;
         let table = own.table()?;
-        let (place, force, words) = if units.is_material {
-            (
-                Dimension::NUMBER,
-                Dimension::PRESSURE,
-                "a strain, as in `strain [%]`, and one of a stress",
-            )
+        let ([place, force], words) = if units.is_material {
+            let words = "a strain, as in `strain [%]`, and one of a stress";
+            ([Dimension::NUMBER, Dimension::PRESSURE], words)
         } else {
-            (
-                Dimension::LENGTH,
-                Dimension::FORCE,
-                "a deformation, as in `way [mm]`, and one of a force",
-            )
+            let words = "a deformation, as in `way [mm]`, and one of a force";
+            ([Dimension::LENGTH, Dimension::FORCE], words)
         };
         let columns = [own.only(&table, place)?, own.only(&table, force)?];
         let [Some(x), Some(y)] = columns else {

@@ -75,8 +75,7 @@ pub(super) fn characteristics(tests: &[Made]) -> &[Figure] {
     &first.report.figures[..count.min(3)]
 }
 
-/// Figures as a table, with the values of the model and of the network; those that do not exist are
-/// left out.
+/// Figures as a table, with the values of the model and of the network; those that do not exist are left out.
 pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
     let is = |has: fn(&Figure) -> bool| figures.iter().any(has);
     let (has_model, has_error) = (is(|own| own.model.is_some()), is(|own| own.error.is_some()));

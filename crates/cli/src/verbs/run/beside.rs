@@ -113,19 +113,19 @@ impl Output {
     /// struck, or of the impactor. A contact or stop that belongs to a pad is none of its own.
     pub(super) fn foremost(assembly: &Assembly, of: Of) -> Option<Self> {
         let named = |name: &String| Self { name: name.clone(), of };
+        let is_own = |at: &usize| {
+            let is_part = |own: Option<usize>| own == Some(*at);
+            !assembly.pads.iter().any(|pad| is_part(pad.contact) || is_part(pad.stop))
+        };
         let found: Vec<Self> = match of {
-            Of::Acceleration | Of::Velocity => reported(assembly, Family::Node)
-                .into_iter()
-                .map(|at| named(&assembly.nodes[at].name))
-                .collect(),
-            _ => reported(assembly, Family::Element)
-                .into_iter()
-                .filter(|at| {
-                    let is_part = |own: Option<usize>| own == Some(*at);
-                    !assembly.pads.iter().any(|pad| is_part(pad.contact) || is_part(pad.stop))
-                })
-                .map(|at| named(&assembly.connections[at].name))
-                .collect(),
+            Of::Acceleration | Of::Velocity => {
+                let all = reported(assembly, Family::Node).into_iter();
+                all.map(|at| named(&assembly.nodes[at].name)).collect()
+            }
+            _ => {
+                let all = reported(assembly, Family::Element).into_iter().filter(is_own);
+                all.map(|at| named(&assembly.connections[at].name)).collect()
+            }
         };
         let [one] = <[Self; 1]>::try_from(found).ok()?;
         Some(one)

@@ -7,7 +7,7 @@ use dashpot_plot::{
     Report, ReportFigure, RunSeries, Table,
     figures::{FIGURES, FORCE_TIME},
 };
-use dashpot_scene::{ModelNote, Scene};
+use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
@@ -32,7 +32,7 @@ use crate::{
     numbers::{bound, duration},
     operand::read_scene,
     origin,
-    output::{Study, Text, VERSION, list, object},
+    output::{Study, Text, VERSION, alike, each_once, list, object},
     said,
     terminal::{Terminal, WIDTH, note},
     text::indented,
@@ -67,7 +67,7 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
     }
     all_are_there(&arguments.scenes, terminal)?;
     let names = named(&paths);
-    let varied = order::varied(&arguments.variant);
+    let varied = each_once(arguments.variant.iter().flat_map(|own| &own.set).map(|own| &own.0));
     let mut all = Vec::new();
     for (path, name) in paths.iter().zip(names) {
         let read = |name: String, set: Vec<(String, String)>| -> Result<Named, CliError> {
@@ -94,16 +94,9 @@ pub(super) fn scenes(arguments: &RunArguments, terminal: Terminal) -> Result<Vec
 
 /// Says what there is to say about the models of all scenes, each remark once, and of which designs where not of all.
 pub(super) fn print_remarks(scenes: &[Named]) {
-    let mut all: Vec<(&ModelNote, Vec<&str>)> = Vec::new();
-    for own in scenes {
-        for remark in &own.scene.notes {
-            match all.iter_mut().find(|known| known.0 == remark) {
-                Some(known) => known.1.push(&own.name),
-                None => all.push((remark, vec![&own.name])),
-            }
-        }
-    }
-    for (remark, names) in all {
+    let all = scenes.iter().flat_map(|own| own.scene.notes.iter().map(|note| (note, &*own.name)));
+    for group in alike(all, |one, other| one.0 == other.0) {
+        let (remark, names) = (group[0].0, list(group.iter().map(|own| own.1)));
         let of = if names.len() == scenes.len() { String::new() } else { names.join("; ") + ": " };
         note(&format!("{of}{}: {}", remark.subject, remark.what));
     }
@@ -244,13 +237,9 @@ impl Designs {
 
     /// What is said of each limit of any design.
     fn limits(&self) -> Table {
-        let mut all: Vec<&Limit> = Vec::new();
-        for limit in self.best().flat_map(|(_, run)| &run.limits) {
-            if !all.iter().any(|known| known.is_same(limit)) {
-                all.push(limit);
-            }
-        }
-        let row = |limit: &&Limit| {
+        let all = alike(self.best().flat_map(|own| &own.1.limits), |one, other| one.is_same(other));
+        let row = |same: &Vec<&Limit>| {
+            let limit = same[0];
             let cell = |(_, run): (&Design, &RunReport)| {
                 let judged = run.judged().into_iter().find(|own| own.limit.is_same(limit));
                 judged.map_or_else(
@@ -340,16 +329,10 @@ impl Designs {
     fn of_each(&self, said: impl Fn(&Design) -> Vec<String>) -> Vec<String> {
         let all = list(self.designs.iter().map(|own| (own.name.as_str(), said(own))));
         let is_of_all = |text: &String| all.iter().all(|own| own.1.contains(text));
-        let mut told: Vec<String> = Vec::new();
-        for (name, texts) in &all {
-            for text in texts {
-                let own = if is_of_all(text) { text.clone() } else { format!("{name}: {text}") };
-                if !told.contains(&own) {
-                    told.push(own);
-                }
-            }
-        }
-        told
+        each_once(all.iter().flat_map(|(name, texts)| {
+            let own = |text| if is_of_all(text) { text.clone() } else { format!("{name}: {text}") };
+            texts.iter().map(own)
+        }))
     }
 }
 

@@ -26,15 +26,9 @@ fn work_of(drives: &[DriveOutputs]) -> String {
 
 /// Where the energy came from and where it is, at the end of the impact and of the run.
 pub(super) fn energy_table(run: &RunReport) -> Table {
-    let mut ledgers: Vec<(&str, &Ledger)> = Vec::new();
-    if let Some(after) = run
-        .energy_after_impact
-        .as_ref()
-        .filter(|energy_after_impact| energy_after_impact.time < run.energy.time)
-    {
-        ledgers.push(("end of impact", after));
-    }
-    ledgers.push(("end of run", &run.energy));
+    let after = run.energy_after_impact.as_ref().filter(|own| own.time < run.energy.time);
+    let after = after.map(|after| ("end of impact", after)).into_iter();
+    let ledgers: Vec<(&str, &Ledger)> = after.chain([("end of run", &run.energy)]).collect();
     let turned_over = run.energy.turned_over;
     let unit = Unit::suiting(turned_over, "J");
     let of_energy = run.measures.iter().filter(|measure| measure.unit == "J");
@@ -57,13 +51,11 @@ pub(super) fn energy_table(run: &RunReport) -> Table {
         ledgers.iter().map(|(_, ledger)| ledger.by_element(&run.assembly)).collect();
     let stored = |ledger: usize, element: usize| sums[ledger][element].1;
     let dissipated = |ledger: usize, element: usize| sums[ledger][element].2;
-    let sizes: Vec<f64> = (0..run.assembly.connections.len())
-        .map(|element| {
-            (0..sums.len())
-                .map(|at| stored(at, element).max(dissipated(at, element)))
-                .fold(0.0, f64::max)
-        })
-        .collect();
+    let size = |element: usize| {
+        let each = (0..sums.len()).map(|at| stored(at, element).max(dissipated(at, element)));
+        each.fold(0.0, f64::max)
+    };
+    let sizes: Vec<f64> = (0..run.assembly.connections.len()).map(size).collect();
     let mut order: Vec<usize> = (0..sizes.len()).collect();
     order.sort_by(|&one, &other| sizes[other].total_cmp(&sizes[one]));
     let mut shown: Vec<usize> =

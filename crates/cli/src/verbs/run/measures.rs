@@ -12,6 +12,7 @@ use dashpot_plot::Table;
 use super::Answer;
 use crate::{
     numbers::{self, MOST_DIGITS, Unit, bound, constant, quantity, share},
+    output::{alike, each_once, list},
     text,
 };
 
@@ -271,16 +272,13 @@ fn error(measure: &MeasureReport, unit: &Unit) -> String {
 
 /// What is to be said about single measures, each once.
 pub(super) fn notes(answer: &Answer) -> Vec<String> {
-    let mut notes: Vec<(String, Vec<&str>)> = Vec::new();
-    for measure in answer.runs.iter().flat_map(RunReport::told) {
-        let Some(note) = measure.note() else { continue };
-        match notes.iter_mut().find(|(known, _)| *known == note) {
-            Some((_, keys)) if keys.contains(&measure.key.as_str()) => {}
-            Some((_, keys)) => keys.push(&measure.key),
-            None => notes.push((note, vec![&measure.key])),
-        }
-    }
-    notes.into_iter().map(|(note, keys)| format!("{}: {note}", keys.join(", "))).collect()
+    let told = answer.runs.iter().flat_map(RunReport::told);
+    let notes = told.filter_map(|measure| Some((measure.note()?, measure.key.as_str())));
+    list(
+        alike(each_once(notes), |one, other| one.0 == other.0).iter().map(|group| {
+            format!("{}: {}", list(group.iter().map(|own| own.1)).join(", "), group[0].0)
+        }),
+    )
 }
 
 /// Errors below this part of a size are rounding.

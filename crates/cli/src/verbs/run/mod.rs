@@ -249,11 +249,8 @@ impl Answer {
             }
         }
         let text = |(warning, methods): (String, Vec<&str>)| {
-            if methods.len() == self.runs.len() {
-                warning
-            } else {
-                format!("{}: {warning}", methods.join(", "))
-            }
+            let is_of_all = methods.len() == self.runs.len();
+            if is_of_all { warning } else { format!("{}: {warning}", methods.join(", ")) }
         };
         let missing = self.runs.iter().flat_map(scatter::missing);
         missing.chain(grouped.into_iter().map(text)).collect()

@@ -7,7 +7,6 @@ use dashpot_scene::{
 };
 
 use super::designs::Design;
-use crate::args::Variant;
 
 /// So many designs of one value can be told apart by their patterns.
 const MOST_GROUPS: usize = 4;
@@ -47,17 +46,6 @@ impl Valued {
     pub(super) fn text(&self) -> Option<String> {
         Some(format!("{}={}", self.name, self.value.as_ref()?))
     }
-}
-
-/// The names that variants set, each once.
-pub(super) fn varied(variants: &[Variant]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for (name, _) in variants.iter().flat_map(|own| &own.set) {
-        if !names.contains(name) {
-            names.push(name.clone());
-        }
-    }
-    names
 }
 
 /// The places of designs in the rising order of the first number in which they differ, and which of them are alike in

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use dashpot_scene::{ReadOptions, Scene, read};
+use dashpot_scene::{Scene, read};
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 use super::RunArguments;
-use crate::{args::Switch, input::load};
+use crate::{args::Switch, input::options};
 
 /// What the command line says in place of the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -131,13 +131,7 @@ fn written(scene: &Scene, changes: &Changes) -> Option<(String, Changes)> {
         rest.rtol = None;
     }
     let text = document.to_string();
-    let options = ReadOptions {
-        file: scene.file.as_deref(),
-        set: &rest.set,
-        loader: Some(&load),
-        ..ReadOptions::default()
-    };
-    let read = read(&text, &options).ok()?.value;
+    let read = read(&text, &options(scene.file.as_deref(), &rest.set)).ok()?.value;
     let methods_agree = changes.methods.is_empty()
         || !rest.methods.is_empty()
         || read.run.methods == changes.methods;
@@ -172,6 +166,8 @@ fn put_in_run(document: &mut DocumentMut, key: &str, value: Value) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use dashpot_scene::ReadOptions;
+
     use super::*;
 
     const SCENE: &str = "#:schema ./scene.schema.json\n[values]\nK = '50 kN/m' # soft\n[nodes]\n\

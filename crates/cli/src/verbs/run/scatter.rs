@@ -19,8 +19,9 @@ use super::{
 use crate::{
     counts::SCATTERED,
     error::CliError,
-    input::load,
+    input,
     numbers::{self, MOST_DIGITS, Unit, rounded},
+    output::each_once,
     unevaluated,
     varied::messages,
 };
@@ -93,7 +94,7 @@ pub(crate) fn drawn(
 /// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands
 /// in it.
 fn options<'o>(scene: &'o Scene, set: &'o [(String, String)]) -> ReadOptions<'o> {
-    ReadOptions { file: scene.file.as_deref(), set, loader: Some(&load), ..ReadOptions::default() }
+    input::options(scene.file.as_deref(), set)
 }
 
 /// What is set from outside and has no scatter: names under `[values]`.
@@ -281,19 +282,14 @@ pub(crate) fn table(run: &RunReport) -> Option<Table> {
 pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
     let bands = |run: &RunReport| run.scatter.as_ref().map_or(&[][..], |own| &own.bands).to_vec();
     let all: Vec<Vec<Band>> = side.columns.iter().map(|own| bands(own.run)).collect();
-    let mut keys: Vec<&Band> = Vec::new();
     let is_told =
-        |key: &str| side.columns.iter().any(|own| own.run.told().any(|told| told.key == key));
-    for band in all.iter().flatten().filter(|band| is_told(&band.key)) {
-        if !keys.iter().any(|known| known.key == band.key) {
-            keys.push(band);
-        }
-    }
-    let row = |first: &&Band| {
-        let of = |own: &Vec<Band>| own.iter().find(|band| band.key == first.key).cloned();
+        |own: &&Band| side.columns.iter().any(|of| of.run.told().any(|told| told.key == own.key));
+    let keys = each_once(all.iter().flatten().filter(is_told).map(|own| (&own.key, own.unit)));
+    let row = |&(key, unit): &(&String, &'static str)| {
+        let of = |own: &Vec<Band>| own.iter().find(|band| &band.key == key).cloned();
         let found: Vec<Option<Band>> = all.iter().map(of).collect();
-        let kind = side.columns.iter().find_map(|own| own.run.measure(&first.key));
-        let rounding = ROUNDING * largest(side.columns.iter().map(|own| own.run), first.unit);
+        let kind = side.columns.iter().find_map(|own| own.run.measure(key));
+        let rounding = ROUNDING * largest(side.columns.iter().map(|own| own.run), unit);
         let unit = unit_of(kind.map_or("", |own| own.kind), found.iter().flatten(), rounding);
         let cell = |own: &Option<Band>| {
             let [_, _, low, high] = own
@@ -304,7 +300,7 @@ pub(super) fn ranges(side: &Side<'_>) -> Option<Table> {
             format!("{low} to {high}{part}")
         };
         let cells = found.iter().map(cell);
-        [first.key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
+        [key.clone()].into_iter().chain(cells).chain([unit.symbol.clone()]).collect()
     };
     let names = side.columns.iter().map(|own| own.name.to_owned());
     let first = side.heading("95 % of its sample");

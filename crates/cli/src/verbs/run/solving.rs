@@ -27,9 +27,7 @@ pub(super) fn solving_table(answer: &Answer) -> Table {
         let count = |count: usize| if stepwise { count.to_string() } else { "–".to_owned() };
         let further = match solver.solves_for_error {
             0 => "–".to_owned(),
-            solves => {
-                format!("{solves} in {}", duration(solver.wall_for_error))
-            }
+            solves => format!("{solves} in {}", duration(solver.wall_for_error)),
         };
         vec![
             solver.method.to_owned(),
@@ -76,36 +74,20 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     let Some(asked) = answer.asked.first() else { return Table::default() };
     let run = &answer.scene.run;
     let methods: Vec<&str> = answer.asked.iter().map(|own| own.method.name()).collect();
+    let rtol = asked.rtol.map(|rtol| format!("{rtol:e}"));
+    let errors = if asked.estimate { "estimated" } else { "not estimated" };
     let mut rows = vec![
         ("duration".to_owned(), constant(asked.duration, "s")),
         ("samples".to_owned(), run.samples.to_string()),
         ("methods".to_owned(), methods.join(", ")),
-        (
-            "rtol".to_owned(),
-            asked.rtol.map_or("found by accuracy".to_owned(), |rtol| format!("{rtol:e}")),
-        ),
-        (
-            "errors".to_owned(),
-            if asked.estimate { "estimated" } else { "not estimated" }.to_owned(),
-        ),
+        ("rtol".to_owned(), rtol.unwrap_or_else(|| "found by accuracy".to_owned())),
+        ("errors".to_owned(), errors.to_owned()),
         ("accuracy".to_owned(), share(asked.accuracy.default)),
     ];
-    rows.extend(
-        asked
-            .accuracy
-            .by_measure
-            .iter()
-            .map(|(key, own)| (format!("accuracy of {key}"), share(*own))),
-    );
-    rows.extend(
-        asked
-            .accuracy
-            .neglect_below
-            .map(|neglect_below| ("neglect below".to_owned(), share(neglect_below))),
-    );
-    rows.extend(
-        asked.stops.iter().map(|stop| (format!("stop at {}", stop.output), stop_text(stop))),
-    );
+    let by_measure = asked.accuracy.by_measure.iter();
+    rows.extend(by_measure.map(|(key, own)| (format!("accuracy of {key}"), share(*own))));
+    rows.extend(asked.accuracy.neglect_below.map(|own| ("neglect below".to_owned(), share(own))));
+    rows.extend(asked.stops.iter().map(|own| (format!("stop at {}", own.output), stop_text(own))));
     let values = answer.scene.values.iter();
     rows.extend(values.map(|own| (format!("value {}", own.name), value_text(own))));
     let rows = rows.into_iter().map(|(name, value)| vec![name, value]);

@@ -20,6 +20,7 @@ use crate::{
     counts::{SWEEP_POINTS, threads},
     error::CliError,
     folder::Folder,
+    varied::method,
 };
 
 /// `sweep`.
@@ -164,12 +165,7 @@ impl SweepArguments {
         posed: Posed,
         further: &[Limit],
     ) -> Result<ScenePoint, RunError> {
-        let method = match (&self.method, &posed.run.methods[..]) {
-            (Some(wanted), _) => wanted,
-            (None, [only]) => only,
-            _ => "auto",
-        };
-        let mut settings = posed.settings(method)?;
+        let mut settings = posed.settings(method(&posed, self.method.as_deref()))?;
         settings.budget = self.budget.unwrap_or(settings.budget);
         Limit::add(&mut settings.limits, further.iter().cloned());
         settings.accuracy.neglect_below = self.neglect.or(settings.accuracy.neglect_below);

@@ -217,20 +217,16 @@ pub(super) fn map(swept: &Swept, column: usize) -> Map {
         kept: Side::Below,
         ..MapLimit::default()
     });
+    let label_of = |of: usize, limit: &Limit| {
+        let words = words::limit(&report.columns[of], limit);
+        if of == column { words } else { format!("{} {words}", quantity(&report.columns[of])) }
+    };
     let bounds = report.limits.iter().enumerate().map(|(at, (of, limit))| MapLimit {
         values: turned(count, &decided(report, *of)),
         errors: turned(count, &known(report, *of)),
         doubted: turned(count, &doubted(report, at)),
         at: limit.bound.level(),
-        label: if *of == column {
-            words::limit(&report.columns[*of], limit)
-        } else {
-            format!(
-                "{} {}",
-                quantity(&report.columns[*of]),
-                words::limit(&report.columns[*of], limit)
-            )
-        },
+        label: label_of(*of, limit),
         kept: match limit.bound {
             Bound::Max(_) => Side::Below,
             Bound::Min(_) => Side::Above,

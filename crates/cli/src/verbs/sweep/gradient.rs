@@ -22,7 +22,7 @@ use crate::{
     numbers::{Unit, digits, percent_signed, quantity},
     operand::print_notes,
     origin,
-    output::{Study, Text, csv, emit, list, object},
+    output::{Study, Text, alike, csv, emit, list, object},
     progress::Bar,
     terminal::Terminal,
 };
@@ -137,13 +137,8 @@ impl Study for Gradients {
         }
     }
 
-    fn data(&self, terminal: Terminal) -> Option<String> {
-        if self.table.is_now(terminal.output.attended) {
-            return None;
-        }
-        let mut bytes = Vec::new();
-        self.table(&mut bytes).ok()?;
-        String::from_utf8(bytes).ok()
+    fn data(&self, terminal: Terminal, out: &mut Vec<u8>) -> Option<()> {
+        if self.table.is_now(terminal.output.attended) { None } else { self.table(out).ok() }
     }
 
     fn notes(&self) -> Vec<String> {
@@ -223,19 +218,12 @@ fn rows(report: &GradientReport) -> impl Iterator<Item = Cell<'_>> {
 
 /// What has no derivative, and why; each reason once, with all that it holds for.
 fn refusals(report: &GradientReport) -> Vec<String> {
-    let mut reasons: Vec<(&str, &NoDerivative, Vec<&str>)> = Vec::new();
-    for (own, number, found) in rows(report) {
-        let Err(why) = found else { continue };
-        let is_it = |known: &&mut (&str, &NoDerivative, Vec<&str>)| {
-            known.0 == number.name && known.1 == why
-        };
-        match reasons.iter_mut().find(is_it) {
-            Some(known) => known.2.push(&own.key),
-            None => reasons.push((&number.name, why, vec![&own.key])),
-        }
-    }
+    let refused = rows(report).filter_map(|(own, number, found)| {
+        Some(((&number.name, found.as_ref().err()?), own.key.as_str()))
+    });
     let count = report.measures.len() + report.events.len();
-    list(reasons.into_iter().map(|(number, why, keys)| {
+    list(alike(refused, |one, other| one.0 == other.0).iter().map(|group| {
+        let ((number, why), keys) = (group[0].0, list(group.iter().map(|own| own.1)));
         let keys = if keys.len() == count { "all".to_owned() } else { keys.join(", ") };
         format!("{keys} by {number}: {why}")
     }))

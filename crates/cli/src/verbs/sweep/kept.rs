@@ -6,7 +6,7 @@ use super::{
     Swept,
     words::{self, short, shown},
 };
-use crate::output::list;
+use crate::output::{alike, list};
 
 /// Stretches of so many words are told.
 const MOST_STRETCHES: usize = 6;
@@ -59,21 +59,18 @@ fn stretches(swept: &Swept, limit: usize, judged: &[Option<Judgement>]) -> Vec<S
         (0..variations.len()).filter(|&at| !variations[at].is_of_words()).collect();
     let ([number], false) = (&numbers[..], swept.varied.is_of_rows()) else { return Vec::new() };
     let number = *number;
-    let mut groups: Vec<(String, Vec<(usize, usize)>)> = Vec::new();
-    for point in 0..judged.len() {
+    let place = |point: usize| {
         let places = swept.varied.places(&swept.grid.places(point));
         let words = places.iter().enumerate().filter(|own| own.0 != number);
         let words = list(words.map(|(at, &place)| shown(&variations[at], place))).join(", ");
-        let own = (places[number], point);
-        match groups.iter_mut().find(|known| known.0 == words) {
-            Some(known) => known.1.push(own),
-            None => groups.push((words, vec![own])),
-        }
-    }
+        (words, (places[number], point))
+    };
+    let groups = alike((0..judged.len()).map(place), |one, other| one.0 == other.0);
     if groups.len() > MOST_STRETCHES {
         return Vec::new();
     }
-    let told = groups.iter().filter_map(|(words, points)| {
+    let told = groups.iter().filter_map(|group| {
+        let (words, points) = (&group[0].0, &list(group.iter().map(|own| own.1))[..]);
         let stretch = Stretch { swept, limit, number, points }.in_words(judged)?;
         Some(format!("{words} {stretch}").trim_start().to_owned())
     });

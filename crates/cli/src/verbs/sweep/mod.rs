@@ -26,7 +26,7 @@ use dashpot_analysis::{
         points_of_shard, sweep as solve, sweep_shard,
     },
 };
-use dashpot_scene::{BareNumbers, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, pose, read};
+use dashpot_scene::{BareNumbers, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, read};
 use serde::Serialize;
 
 pub(crate) use self::{
@@ -53,6 +53,7 @@ use crate::{
     progress::Bar,
     said,
     terminal::{Terminal, note},
+    varied::posed,
 };
 
 /// What was varied, in what, and what was found.
@@ -95,13 +96,8 @@ fn solved_or_merged(
     if let Some(own) = stored.iter().flatten().find(|own| own.sweep != hash) {
         return Err(own.fault(ShardFault::Changed));
     }
-    let of_text = |text: &str| {
-        let posed = pose(text, &input.options(&set)).map_err(|faults| {
-            let messages = faults.list.iter().map(Diagnostic::message);
-            messages.collect::<Vec<_>>().join("; ")
-        })?;
-        scene_point(posed).map_err(|error| error.to_string())
-    };
+    let of_text =
+        |text: &str| scene_point(posed(text, &input, &set)?).map_err(|error| error.to_string());
     let at = |places: &[usize]| {
         let mut scene_point = of_text(&varied.text_at(places))?;
         scene_point.settings.measures.clone_from(&wishes);
@@ -129,14 +125,8 @@ fn solved_or_merged(
     let folder = arguments.folder(&varied, &columns)?;
     terminal.diagnose(&of_ends(of, (&input, &set), known)?);
     if !arguments.gradient.is_empty() {
-        return gradient::gradient(
-            arguments,
-            (scene, varied, grid),
-            &keys,
-            &of_text,
-            folder,
-            terminal,
-        );
+        let of = (scene, varied, grid);
+        return gradient::gradient(arguments, of, &keys, &of_text, folder, terminal);
     }
     let found = found((arguments, estimates, stored), (&grid, &at, &columns), terminal)?;
     let OutputArguments { json, table, .. } = arguments.output;
@@ -319,13 +309,12 @@ impl Study for Swept {
         text.items(notes(self).into_iter().skip(self.report.limits.len()));
     }
 
-    fn data(&self, terminal: Terminal) -> Option<String> {
+    fn data(&self, terminal: Terminal, out: &mut Vec<u8>) -> Option<()> {
         if self.table.is_now(terminal.output.attended) {
-            return None;
+            None
+        } else {
+            files::table(self, out).ok()
         }
-        let mut bytes = Vec::new();
-        files::table(self, &mut bytes).ok()?;
-        String::from_utf8(bytes).ok()
     }
 
     fn notes(&self) -> Vec<String> {

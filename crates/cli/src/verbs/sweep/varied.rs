@@ -126,8 +126,7 @@ impl Varied {
         }
     }
 
-    /// The points at which something wrong with the values shows, rising: the corners of the grid, and every
-    /// word.
+    /// The points at which something wrong with the values shows, rising: the corners of the grid, and every word.
     pub(super) fn telling(&self, grid: &Grid) -> Vec<usize> {
         let mut points: Vec<usize> = grid.corners().into_iter().take(MOST_CORNERS).collect();
         let of_scene = |own: &(usize, &Variation)| self.matched[own.0].is_some();

@@ -362,14 +362,10 @@ fn warnings(swept: &Swept, report: &SweepReport, points: usize) -> Vec<String> {
 }
 
 fn left_out(partial_of_sweep: &PartialOfSweep) -> Vec<String> {
-    let names: Vec<String> = partial_of_sweep
-        .left_out
-        .iter()
-        .map(|own| {
-            let estimate = estimate(&own.influence.formula, own.influence.value);
-            format!("{} ({estimate})", own.effect)
-        })
-        .collect();
+    let names = list(partial_of_sweep.left_out.iter().map(|own| {
+        let estimate = estimate(&own.influence.formula, own.influence.value);
+        format!("{} ({estimate})", own.effect)
+    }));
     let most = partial_of_sweep.worst.as_ref().map_or(String::new(), |worst| {
         format!("; `{}` moves by {}, the most of all", worst.measure, apart(worst.most()))
     });

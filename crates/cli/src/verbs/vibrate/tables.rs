@@ -154,8 +154,7 @@ fn limits(all: &[Transmission]) -> String {
     }
 }
 
-/// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on
-/// what is left out.
+/// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on what is left out.
 pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
     let total = sweep.frequencies.len();
     let count = total.min(MOST_ROWS);

@@ -36,59 +36,37 @@ pub const FIGURES: &[Figure] = &[
 ];
 
 /// Force of each element over time, positive in compression.
-pub const FORCE_TIME: Figure = Figure {
-    name: "force-time",
-    title: "Force over time",
-    x: Of::Time,
-    y: Of::Force,
-    kinds: &[PeakForce, TensionStart],
-};
+pub const FORCE_TIME: Figure =
+    Figure::of("force-time", "Force over time", (Of::Time, Of::Force), &[PeakForce, TensionStart]);
 
 /// Acceleration of each mass over time, as an accelerometer reads it, positive away from the support: free fall is 0.
-pub const ACCELERATION_TIME: Figure = Figure {
-    name: "acceleration-time",
-    title: "Acceleration over time",
-    x: Of::Time,
-    y: Of::Acceleration,
-    kinds: &[],
-};
+pub const ACCELERATION_TIME: Figure =
+    Figure::of("acceleration-time", "Acceleration over time", (Of::Time, Of::Acceleration), &[]);
 
 /// Velocity of each mass over time, positive towards the support.
-pub const VELOCITY_TIME: Figure = Figure {
-    name: "velocity-time",
-    title: "Velocity over time",
-    x: Of::Time,
-    y: Of::Velocity,
-    kinds: &[],
-};
+pub const VELOCITY_TIME: Figure =
+    Figure::of("velocity-time", "Velocity over time", (Of::Time, Of::Velocity), &[]);
 
 /// Deformation of each element over time, positive in compression, with the thickness of pads as a limit. Gaps at
 /// contacts that are wide beside the deformations are cut off.
-pub const DEFORMATION_TIME: Figure = Figure {
-    name: "deformation-time",
-    title: "Deformation over time",
-    x: Of::Time,
-    y: Of::Deformation,
-    kinds: &[DeepestPoint, TensionStart],
-};
+pub const DEFORMATION_TIME: Figure = Figure::of(
+    "deformation-time",
+    "Deformation over time",
+    (Of::Time, Of::Deformation),
+    &[DeepestPoint, TensionStart],
+);
 
 /// Force of each element over its deformation, both positive in compression: the area in a loop is the energy lost.
-pub const FORCE_DEFORMATION: Figure = Figure {
-    name: "force-deformation",
-    title: "Force over deformation",
-    x: Of::Deformation,
-    y: Of::Force,
-    kinds: &[PeakForce, DeepestPoint, TensionStart],
-};
+pub const FORCE_DEFORMATION: Figure = Figure::of(
+    "force-deformation",
+    "Force over deformation",
+    (Of::Deformation, Of::Force),
+    &[PeakForce, DeepestPoint, TensionStart],
+);
 
 /// The parts of the energy ledger over time.
-pub const ENERGY_TIME: Figure = Figure {
-    name: "energy-time",
-    title: "Energy over time",
-    x: Of::Time,
-    y: Of::Energy,
-    kinds: &[],
-};
+pub const ENERGY_TIME: Figure =
+    Figure::of("energy-time", "Energy over time", (Of::Time, Of::Energy), &[]);
 
 /// A figure drawn from one or several runs of the same scene.
 #[derive(Debug, Clone, Copy)]
@@ -103,6 +81,15 @@ pub struct Figure {
 }
 
 impl Figure {
+    const fn of(
+        name: &'static str,
+        title: &'static str,
+        (x, y): (Of, Of),
+        kinds: &'static [RunMarkerKind],
+    ) -> Self {
+        Self { name, title, x, y, kinds }
+    }
+
     /// The figure of this signal over time.
     pub fn over_time(y: Of) -> Option<&'static Self> {
         FIGURES.iter().find(|figure| figure.x == Of::Time && figure.y == y)

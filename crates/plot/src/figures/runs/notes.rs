@@ -40,14 +40,8 @@ fn first_touch(runs: &[RunSeries]) -> Option<String> {
 fn excerpt(run: &RunSeries) -> Option<String> {
     let (end, from, to) = (run.excerpt_of?, *run.time.first()?, *run.time.last()?);
     let unit = Unit::of(&unit::TIME, run.time.iter().copied());
-    let number = |time: f64| unit.number_within(time, to - from);
-    Some(format!(
-        "from {} to {} {} of {}",
-        number(from),
-        number(to),
-        unit.symbol(),
-        unit.print(end)
-    ))
+    let [first, last] = [from, to].map(|time| unit.number_within(time, to - from));
+    Some(format!("from {first} to {last} {} of {}", unit.symbol(), unit.print(end)))
 }
 
 #[cfg(test)]

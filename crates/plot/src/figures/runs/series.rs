@@ -56,8 +56,7 @@ pub struct ElementSeries {
     pub deformation: Vec<f64>,
     /// Thickness \[m\] of a pad, drawn as a limit of the deformation.
     pub thickness: Option<f64>,
-    /// Whether it is a rigid contact: its force does not belong to its deformation, which is the
-    /// width of a gap.
+    /// Whether it is a rigid contact: its force does not belong to its deformation, which is the width of a gap.
     pub is_contact: bool,
 }
 

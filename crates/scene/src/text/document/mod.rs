@@ -23,8 +23,7 @@ use crate::{
 /// A text may have so many bytes.
 pub const MAX_BYTES: usize = 64 << 20;
 
-/// Arrays, tables and dotted keys may nest so deeply in a text. A level takes less than 4 kB of the
-/// stack.
+/// Arrays, tables and dotted keys may nest so deeply in a text. A level takes less than 4 kB of the stack.
 pub(crate) const MAX_LEVELS: usize = 128;
 
 /// Parses `source`; `None` when there is nothing to go on with. Numbers with scatter are read as their means.

@@ -130,8 +130,7 @@ impl Library {
             )),
         })
     }
-    /// The paths in `model = "path:name"` and `material = "path:name"` anywhere in a document, with
-    /// their places.
+    /// The paths in `model = "path:name"` and `material = "path:name"` anywhere in a document, with their places.
     pub(super) fn files_wanted(&self, document: usize) -> Vec<(String, Place)> {
         let own = &self.documents[document];
         let mut wanted = Vec::new();

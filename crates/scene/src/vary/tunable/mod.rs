@@ -111,21 +111,17 @@ impl Tunables {
 
     fn with(text: Arc<str>, found: Found) -> Self {
         let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
+        let add = |own: &mut Self, path: Vec<String>, span, (value, dimension), unit, word| {
+            let (path_in_full, name, scatter) = (path.join("."), String::new(), None);
+            own.paths.push((path, own.all.len()));
+            let path = path_in_full;
+            own.all.push(Tunable { path, name, value, dimension, unit, word, scatter, span });
+        };
         for (path, span, unit, mut quantity) in found.numbers {
             if is_acceleration(&path) {
                 quantity = quantity.meant(Dimension::ACCELERATION);
             }
-            own.paths.push((path.clone(), own.all.len()));
-            own.all.push(Tunable {
-                path: path.join("."),
-                name: String::new(),
-                value: quantity.value,
-                dimension: quantity.dimension,
-                unit,
-                word: None,
-                scatter: None,
-                span,
-            });
+            add(&mut own, path, span, (quantity.value, quantity.dimension), unit, None);
         }
         // Where a word is the name of a value, it stands for its number.
         for (path, _, word) in &found.words {
@@ -140,33 +136,19 @@ impl Tunables {
             if section != "elements" || !["model", "material"].contains(&key.as_str()) {
                 continue;
             }
-            let inner: Vec<(Vec<String>, usize)> = own
-                .paths
-                .iter()
-                .filter(|known| known.0.len() > 2 && known.0[0] == shared && known.0[1] == *word)
-                .map(|known| {
-                    let mut path = vec![section.clone(), element.clone()];
-                    path.extend_from_slice(&known.0[2..]);
-                    (path, known.1)
-                })
-                .collect();
+            let inner = own.paths.iter().filter_map(|(known, at)| {
+                let [first, second, rest @ ..] = &known[..] else { return None };
+                let is_meant = !rest.is_empty() && first == shared && second == word;
+                is_meant.then(|| ([&[section.clone(), element.clone()], rest].concat(), *at))
+            });
+            let inner: Vec<(Vec<String>, usize)> = inner.collect();
             own.paths.extend(inner);
         }
         let is_ruled = |own: &&(Vec<String>, Range<usize>, String)| {
             !own.0.iter().any(|part| part == "between")
         };
         for (path, span, word) in found.words.iter().filter(is_ruled).cloned() {
-            own.paths.push((path.clone(), own.all.len()));
-            own.all.push(Tunable {
-                path: path.join("."),
-                name: String::new(),
-                value: f64::NAN,
-                dimension: None,
-                unit: String::new(),
-                word: Some(word),
-                scatter: None,
-                span,
-            });
+            add(&mut own, path, span, (f64::NAN, None), String::new(), Some(word));
         }
         for at in 0..own.all.len() {
             own.all[at].name = own.shortest(at);
