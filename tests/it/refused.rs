@@ -202,6 +202,8 @@ fn slips_of_the_command_line_are_told_with_what_to_write() {
             "for example `dashpot compare pads.toml:burgers pads.toml:two-maxwell`",
         ),
         (vec!["run", folder], "name a file in it"),
+        (vec!["new", "pad.toml"], "`--out FILE.toml` says which file is written"),
+        (vec!["list", "maxwel"], "did you mean `maxwell`?"),
         (vec!["cushion", scene, "--stress", "1..10"], "\"1..10 kPa\" or \"1..10 Pa\""),
         ([&convert[..], &[text(&nowhere)]].concat(), &missing),
     ] {

@@ -1,6 +1,9 @@
 //! Arguments that several verbs have: types, what reads their values, names from the registers.
 
-use std::{ffi::OsStr, path::PathBuf};
+use std::{
+    ffi::OsStr,
+    path::{Path, PathBuf},
+};
 
 use clap::{
     Args, Command, CommandFactory, ValueEnum,
@@ -179,6 +182,11 @@ pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
     let unit = unknown.split(',').next().unwrap_or_default();
     let tip = if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
         Some(unquoted_help(unit))
+    } else if Path::new(&word(ContextKind::InvalidValue))
+        .extension()
+        .is_some_and(|own| own == "toml")
+    {
+        Some("`--out FILE.toml` says which file is written".to_owned())
     } else if let Some(near) = nearest(&unknown, known.iter().map(String::as_str)) {
         Some(format!("did you mean `{near}`?"))
     } else if error.kind() == ErrorKind::MissingRequiredArgument {

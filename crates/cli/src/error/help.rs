@@ -23,9 +23,8 @@ impl CliError {
             Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
                 Some(unquoted_help(name))
             }
-            Self::Unreadable { similar: Some(similar), .. } => {
-                Some(format!("did you mean `{similar}`?"))
-            }
+            Self::Unreadable { similar: Some(near), .. }
+            | Self::UnknownKind { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),
             Self::Quantity { fault, .. } => fault.help(),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),

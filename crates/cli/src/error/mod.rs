@@ -18,7 +18,7 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::{
-    Diagnostics, Fault, ListedFault, TableError, TunableFault, Unwritable, VariationFault,
+    Diagnostics, Fault, ListedFault, TableError, TunableFault, Unwritable, VariationFault, nearest,
 };
 use dashpot_signal::{ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
@@ -107,7 +107,7 @@ pub(crate) enum CliError {
     NotAFolder { path: PathBuf },
     /// A word that no register has.
     #[error("there is no kind `{word}`")]
-    UnknownKind { word: String },
+    UnknownKind { word: String, near: Option<String> },
     /// A node that a network does not have.
     #[error("there is no node `{name}`; the nodes are {}", .known.join(", "))]
     UnknownNode { name: String, known: Vec<String> },
@@ -290,6 +290,11 @@ pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> 
 
 impl CliError {
     /// What is wrong with a setting of this name.
+    pub(crate) fn unknown_kind<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Self {
+        let near = nearest(word, known).map(str::to_owned);
+        Self::UnknownKind { word: word.to_owned(), near }
+    }
+
     pub(crate) fn setting(name: &str, reason: impl Into<String>) -> Self {
         Self::WrongSetting { name: name.to_owned(), reason: reason.into() }
     }

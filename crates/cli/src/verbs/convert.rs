@@ -69,8 +69,8 @@ pub(crate) fn convert(
     let file = file.transpose()?;
     let word = || operand.word.clone();
     let linear = operand.linear()?.ok_or_else(|| CliError::MovingMasses { word: word() })?;
-    let target = Target::named(&arguments.to)
-        .ok_or_else(|| CliError::UnknownKind { word: arguments.to.clone() })?;
+    let target =
+        Target::named(&arguments.to).ok_or_else(|| CliError::unknown_kind(&arguments.to, []))?;
     let tree = converted(&linear, &target).map_err(|reason| CliError::Unfit {
         word: word(),
         form: target.word,

@@ -115,7 +115,14 @@ pub(crate) fn list(arguments: &ListArguments, terminal: Terminal) -> Result<Stat
         }
     }
     match kind.filter(|_| text.is_empty()) {
-        Some(kind) => Err(CliError::UnknownKind { word: kind.to_owned() }),
+        Some(kind) => {
+            let all = FAMILIES.iter().flat_map(|own| entries(own.0)).collect::<Vec<_>>();
+            let names = all.iter().map(|own| own.name.trim_end_matches('*'));
+            Err(CliError::unknown_kind(
+                kind,
+                names.chain(all.iter().flat_map(|own| own.aliases).copied()),
+            ))
+        }
         None => print(&text).map(|()| Status::Done),
     }
 }

@@ -76,7 +76,7 @@ mod tests {
             assert_eq!(svg.matches("time (ms)").count(), 1);
             assert!(svg.contains("left (N)") && svg.contains("force (N)"));
             assert!(!svg.contains(">\nleft\n"), "the title of the lower chart");
-            let border = |own: &'_ str| {
+            let border = |own: &str| {
                 let points = own.rsplit("<polyline").find(|own| own.contains("#1F2933"));
                 let list = points.unwrap().split("points=\"").nth(1).unwrap();
                 let each = list.split('"').next().unwrap().split_whitespace();

@@ -66,7 +66,7 @@ impl<'d> KindReader<'d> {
             let entry = self.entry(parameter, &table);
             places.push(given(entry, place));
             let before = values.last().and_then(Option::as_ref);
-            values.push(match entry {
+            let value = match entry {
                 _ if parameter.default.is_some() && is_size(parameter) => {
                     self.size_of(parameter, entry, (word, place)).map(Value::Number)
                 }
@@ -75,7 +75,8 @@ impl<'d> KindReader<'d> {
                 }
                 Some(entry) => self.value(parameter, &entry.item),
                 None => parameter.default.as_ref().and_then(|_| self.default(parameter)),
-            });
+            };
+            values.push(value);
         }
         table.finish();
         Some((values.into_iter().collect::<Option<Vec<_>>>()?, places))

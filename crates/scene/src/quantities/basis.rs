@@ -193,13 +193,9 @@ impl Basis {
 
 /// Whether a kind may stand in a material: what acts across a gap, or is a pad of its own, is no material.
 pub(crate) fn fits_material(parameters: &[Parameter]) -> bool {
-    parameters.iter().all(|parameter| {
-        parameter.name != "gap"
-            && !matches!(
-                parameter.kind,
-                ParameterKind::Amplitude | ParameterKind::TimeTable | ParameterKind::Model
-            )
-    })
+    use ParameterKind::{Amplitude, Model, TimeTable};
+    let is_none = |own: &Parameter| matches!(own.kind, Amplitude | TimeTable | Model);
+    !parameters.iter().any(|own| own.name == "gap" || is_none(own))
 }
 
 /// Whether a parameter is the thickness or area of the pad that an element is.

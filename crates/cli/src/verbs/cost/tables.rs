@@ -181,23 +181,15 @@ pub(super) fn reference_notes(report: &CostReport) -> Vec<String> {
     if let Some(why) = &own.why_not_exact {
         notes.push(format!("there is no exact solution: {why}"));
     }
-    notes.push(
-        "times are medians, to solve and to read all measures, with their interquartile range as \
-         spread"
-            .to_owned(),
-    );
-    notes.push(
+    let always = [
+        "times are medians, to solve and to read all measures, with their interquartile range as spread",
         "errors are relative: of the state to the largest value of each unknown, of events to the \
-         length of the run; ≤ stands where the truth is not known better"
-            .to_owned(),
-    );
-    if report.asked.len() > 1 {
-        notes.push(
-            "of several measures it is the worst one; `--measure` asks for one, `--out` and \
-             `--json` hold the error of each"
-                .to_owned(),
-        );
-    }
+         length of the run; ≤ stands where the truth is not known better",
+    ];
+    let of_several = "of several measures it is the worst one; `--measure` asks for one, `--out` and \
+                      `--json` hold the error of each";
+    let of_several = Some(of_several).filter(|_| report.asked.len() > 1);
+    notes.extend(always.into_iter().chain(of_several).map(str::to_owned));
     notes
 }
 

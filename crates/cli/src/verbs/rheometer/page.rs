@@ -28,14 +28,11 @@ pub(super) fn page(tested: &Tested, figures: Vec<ReportFigure>) -> Report {
     let settings = version.iter().chain(&tested.set);
     let settings = settings.map(|(name, value)| vec![name.clone(), value.clone()]);
     let settings = Table::plain("Settings", settings);
+    let verdict = simulated.into_iter().chain(characteristics);
     Report {
         title: tested.word.clone(),
         warnings: Vec::new(),
-        verdict: simulated
-            .into_iter()
-            .chain(characteristics)
-            .chain(missing(common, units))
-            .collect(),
+        verdict: verdict.chain(missing(common, units)).collect(),
         tables: tables.filter(|own| !own.rows.is_empty()).collect(),
         network: None,
         figures,

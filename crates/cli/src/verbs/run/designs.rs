@@ -330,8 +330,8 @@ impl Designs {
         let all = list(self.designs.iter().map(|own| (own.name.as_str(), said(own))));
         let is_of_all = |text: &String| all.iter().all(|own| own.1.contains(text));
         each_once(all.iter().flat_map(|(name, texts)| {
-            let own = |text| if is_of_all(text) { text.clone() } else { format!("{name}: {text}") };
-            texts.iter().map(own)
+            let all = texts.iter();
+            all.map(move |own| if is_of_all(own) { own.clone() } else { format!("{name}: {own}") })
         }))
     }
 }

@@ -105,11 +105,8 @@ pub(super) fn table(swept: &Swept, out: &mut dyn io::Write) -> io::Result<()> {
 /// The headings of a table of all points: parameters, measures with their errors, limits, warnings.
 pub(super) fn header(varied: &Varied, report: &SweepReport) -> Vec<String> {
     let own = varied.variations.iter().enumerate().map(|(at, own)| {
-        if own.is_of_words() {
-            own.name.clone()
-        } else {
-            format!("{} [{}]", own.name, varied.unit(at))
-        }
+        let unit = || format!(" [{}]", varied.unit(at));
+        if own.is_of_words() { own.name.clone() } else { own.name.clone() + &unit() }
     });
     let found = report.columns.iter().flat_map(|column| {
         let (name, unit) = (name(column), column.unit);

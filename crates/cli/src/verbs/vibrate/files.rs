@@ -85,11 +85,9 @@ pub(super) fn series(sweep: &Sweep) -> VibrationSeries {
 }
 
 fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
-    let mut points: Vec<(f64, Option<Swing>)> =
-        sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied()).collect();
-    points.extend(
-        transmission.resonances.iter().map(|resonance| (resonance.frequency, resonance.swing)),
-    );
+    let swings = sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied());
+    let resonances = transmission.resonances.iter().map(|own| (own.frequency, own.swing));
+    let mut points: Vec<(f64, Option<Swing>)> = swings.chain(resonances).collect();
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     let peaks = transmission.resonances.iter().filter_map(|resonance| {
         let height = resonance.swing?.amplitude;

@@ -112,9 +112,8 @@ impl Tunables {
     fn with(text: Arc<str>, found: Found) -> Self {
         let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
         let add = |own: &mut Self, path: Vec<String>, span, (value, dimension), unit, word| {
-            let (path_in_full, name, scatter) = (path.join("."), String::new(), None);
-            own.paths.push((path, own.all.len()));
-            let path = path_in_full;
+            own.paths.push((path.clone(), own.all.len()));
+            let (path, name, scatter) = (path.join("."), String::new(), None);
             own.all.push(Tunable { path, name, value, dimension, unit, word, scatter, span });
         };
         for (path, span, unit, mut quantity) in found.numbers {
@@ -139,7 +138,7 @@ impl Tunables {
             let inner = own.paths.iter().filter_map(|(known, at)| {
                 let [first, second, rest @ ..] = &known[..] else { return None };
                 let is_meant = !rest.is_empty() && first == shared && second == word;
-                is_meant.then(|| ([&[section.clone(), element.clone()], rest].concat(), *at))
+                is_meant.then(|| ([&[section.clone(), element.clone()][..], rest].concat(), *at))
             });
             let inner: Vec<(Vec<String>, usize)> = inner.collect();
             own.paths.extend(inner);
