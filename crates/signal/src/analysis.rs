@@ -105,6 +105,9 @@ pub struct Analysis {
     pub work: Option<Work>,
     /// How far its samples may be off.
     pub uncertainty: Uncertainty,
+    /// By how much its samples change at most if nothing happened beyond the ends of the record, where a filter smears its
+    /// pulse beyond them, in its unit; else 0. The errors of its readings hold what that changes.
+    pub beyond: f64,
     /// What is wrong with it.
     pub defects: Vec<Defect>,
 }
@@ -123,7 +126,14 @@ pub struct Treated {
     pub floor: f64,
     /// What it reads at rest; 0 where that is not known.
     pub rest: f64,
+    /// The same where nothing happens beyond the ends of the record, as far as its filter smears a pulse there.
+    pub(crate) at_rest: Option<Channel>,
 }
+
+/// A filter smears a pulse by so many periods of its design frequency.
+const SMEARED: f64 = 3.0;
+/// What it changes by less than this part of the peak is rounding.
+const ROUNDING: f64 = 1e-6;
 
 impl Settings {
     /// What is made of a channel before it is read.
@@ -149,7 +159,8 @@ impl Settings {
         let error = error.map_or(0.0, |own| rest.abs() + own.error);
         let floor = error + 0.5 * raw.resolution() + self.error;
         let sign = if self.is_inverted { -1.0 } else { 1.0 };
-        let mut channel = raw.map(|own| sign * (own - removed.unwrap_or(0.0)));
+        let (mut channel, mut at_rest) =
+            (raw.map(|own| sign * (own - removed.unwrap_or(0.0))), None);
         if let Some(rate) = self.rate {
             channel = channel.resampled(rate).map_err(|fault| match fault {
                 ChannelFault::TooMany { .. } => SettingsFault::Rate(fault),
@@ -162,12 +173,24 @@ impl Settings {
                 return Err(SettingsFault::UnevenSteps { range: steps.range });
             }
             let values = cfc.filter(channel.values(), steps.rate, self.padding)?;
+            let reach = SMEARED / cfc.design_frequency();
+            // A velocity may be any beyond the ends.
+            let count = (reach * steps.rate).ceil();
+            let wider = has_zero.then(|| channel.between_rests(sign * rest, count)).flatten();
+            at_rest = match wider {
+                Some(own) => {
+                    let values = cfc.filter(own.values(), steps.rate, Padding::Hold)?;
+                    Some(own.with_values(values))
+                }
+                None => None,
+            };
             channel = channel.with_values(values);
         }
         if let Some(window) = self.window {
             channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
+            at_rest = at_rest.and_then(|own| own.cut(window).ok());
         }
-        Ok(Treated { channel, offset, removed, floor, rest: sign * rest })
+        Ok(Treated { channel, offset, removed, floor, rest: sign * rest, at_rest })
     }
 
     /// Reads a channel.
@@ -196,27 +219,19 @@ impl Settings {
         noise: Noise,
         (part, clipped): (Part, Vec<(f64, f64)>),
     ) -> Analysis {
-        let Treated { channel, offset, removed, floor, rest } = treated;
+        let Treated { channel, offset, removed, floor, rest, at_rest } = treated;
         let uncertainty = Uncertainty { floor, rest, noise };
-        let clipping = Clipping::of(&channel, &clipped, self.cfc.is_some());
-        let reader = Reader::new(&channel, uncertainty, clipping);
-        let is_read =
-            |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
-        let measures = Measure::of(channel.dimension()).filter(is_read);
-        let mut readings: Vec<Reading> = measures.filter_map(|own| reader.read(own)).collect();
-        let approach = self.approach.filter(|own| match channel.dimension() {
-            Dimension::FORCE => own.mass.is_some(),
-            dimension => dimension == Dimension::ACCELERATION,
-        });
-        let motion = approach.map(|own| reader.motion(own));
-        for (motion, approach) in motion.iter().zip(approach) {
-            let all = motion.readings(&channel, approach).into_iter();
-            let motion = (motion, approach.gravity);
-            let left = |own| clipping.map_or(own, |clipping| clipping.left(own, Some(motion)));
-            readings.extend(all.map(left));
+        let seen = (&part, &clipped[..]);
+        let (mut readings, motion, contact) = self.readings(&channel, uncertainty, seen);
+        let change = at_rest.as_ref().map_or(0.0, |own| channel.apart(own));
+        let is_open = change > f64::max(noise.extreme(1), ROUNDING * channel.largest().1);
+        if let Some(other) = at_rest.filter(|_| is_open) {
+            let others = self.readings(&other, uncertainty, seen).0;
+            for (own, other) in readings.iter_mut().zip(others) {
+                let both = own.value.ok().zip(other.value.ok());
+                own.error += both.map_or(f64::INFINITY, |(one, other)| (one - other).abs());
+            }
         }
-        let contact = reader.contact();
-        drop(reader);
         Analysis {
             steps: raw.steps(),
             raw,
@@ -232,8 +247,36 @@ impl Settings {
             motion,
             work: None,
             uncertainty,
+            beyond: if is_open { change } else { 0.0 },
             defects: Vec::new(),
         }
+    }
+
+    /// All that is read off a channel.
+    fn readings(
+        &self,
+        channel: &Channel,
+        uncertainty: Uncertainty,
+        (part, clipped): (&Part, &[(f64, f64)]),
+    ) -> (Vec<Reading>, Option<Motion>, Contact) {
+        let clipping = Clipping::of(channel, clipped, self.cfc.is_some());
+        let reader = Reader::new(channel, uncertainty, clipping);
+        let is_read =
+            |own: &Measure| own.is_of_magnitudes() || !matches!(part, Part::Resultant { .. });
+        let measures = Measure::of(channel.dimension()).filter(is_read);
+        let mut readings: Vec<Reading> = measures.filter_map(|own| reader.read(own)).collect();
+        let approach = self.approach.filter(|own| match channel.dimension() {
+            Dimension::FORCE => own.mass.is_some(),
+            dimension => dimension == Dimension::ACCELERATION,
+        });
+        let motion = approach.map(|own| reader.motion(own));
+        for (motion, approach) in motion.iter().zip(approach) {
+            let all = motion.readings(channel, approach).into_iter();
+            let motion = (motion, approach.gravity);
+            let left = |own| clipping.map_or(own, |clipping| clipping.left(own, Some(motion)));
+            readings.extend(all.map(left));
+        }
+        (readings, motion, reader.contact())
     }
 }
 

@@ -194,6 +194,26 @@ impl Channel {
         self.with_values(self.values.iter().copied().map(change).collect())
     }
 
+    /// The same with so many samples before and behind at which nothing happens.
+    pub(crate) fn between_rests(&self, rest: f64, count: f64) -> Option<Self> {
+        let (first, last) = self.span();
+        let step = 1.0 / self.steps().rate;
+        let far = (1..).map(f64::from).take_while(|own| *own <= count);
+        let far: Vec<f64> = far.map(|own| own * step).collect();
+        let before = far.iter().rev().map(|own| (first - own, rest));
+        let behind = far.iter().map(|own| (last + own, rest));
+        let own = self.times.iter().copied().zip(self.values.iter().copied());
+        let (times, values) = before.chain(own).chain(behind).unzip();
+        Self::new(self.name.clone(), self.dimension, times, values).ok()
+    }
+
+    /// How far the values of another are from these at most, at the times of both.
+    pub(crate) fn apart(&self, other: &Self) -> f64 {
+        let from = other.times.partition_point(|own| *own < self.span().0);
+        let pairs = self.values.iter().zip(&other.values[from..]);
+        pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+    }
+
     /// The same over a divisor, as another quantity: of a force over a mass the acceleration.
     pub(crate) fn over(&self, divisor: f64, dimension: Dimension) -> Self {
         Self { dimension, ..self.map(|own| own / divisor) }

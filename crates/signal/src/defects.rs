@@ -81,6 +81,13 @@ pub enum Defect {
     /// A record that begins or ends within the pulse.
     #[error("the record begins or ends within the pulse: its numbers are those of a part")]
     Cut,
+    /// A filter that smears the pulse beyond an end of the record, so that what stood there counts.
+    #[error(
+        "begins or ends where its filter still smears the pulse: samples change by {} with what stood beyond, which the \
+         errors hold (record some ms of rest)",
+        shown(*.change, *.unit)
+    )]
+    SmearedBeyond { change: f64, unit: Dimension },
     /// A sampling rate below ten times the class of the filter.
     #[error(
         "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
@@ -128,6 +135,7 @@ impl Defect {
             Self::Coarse { .. } => "coarse",
             Self::FewSamples { .. } => "few-samples",
             Self::Cut => "cut",
+            Self::SmearedBeyond { .. } => "smeared-beyond",
             Self::SlowForClass { .. } => "slow-for-class",
             Self::OddClass { .. } => "odd-class",
             Self::OddPeak { .. } => "odd-peak",
@@ -166,6 +174,9 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     all.extend(spikes(&own.raw));
     if own.contact.is_cut {
         all.push(Defect::Cut);
+    }
+    if own.beyond > 0.0 {
+        all.push(Defect::SmearedBeyond { change: own.beyond, unit });
     }
     all.extend(offset(own, peak, unit));
     all.extend(drift(own, peak, unit));

@@ -134,7 +134,7 @@ impl Analysis {
         let is_sampled = |own: &Self| own.channel.times() == finest.channel.times();
         let floor = norm(&mut axes.iter().map(|own| {
             let hidden = if is_sampled(own) { 0.0 } else { Sampling::of(&own.channel).height() };
-            own.uncertainty.floor + hidden
+            own.uncertainty.floor + own.beyond + hidden
         }));
         let most = |of: fn(&Noise) -> f64| {
             axes.iter().map(|own| of(&own.uncertainty.noise)).fold(0.0, f64::max)
@@ -158,7 +158,8 @@ impl Analysis {
         let longer = axes.len() as f64 * noise.deviation.powi(2) / channel.largest().1;
         let floor = floor + if longer.is_finite() { longer } else { 0.0 };
         let raw = channel.clone();
-        let treated = Treated { channel, offset: None, removed: None, floor, rest: 0.0 };
+        let treated =
+            Treated { channel, offset: None, removed: None, floor, rest: 0.0, at_rest: None };
         let clipped = axes.iter().flat_map(|own| own.clipped.iter().copied()).collect();
         let mut own = settings.read(raw, treated, noise, (part, clipped));
         own.defects = defects(&own);
