@@ -177,3 +177,15 @@ fn an_interrupt_ends_a_fit_with_the_best_so_far() {
     assert!(words.contains("Numbers") && words.contains("K "), "{text}");
     assert!(fs::read_to_string(toml).unwrap().starts_with("# not finished: fitted to"));
 }
+
+#[test]
+fn a_folder_that_is_missing_is_named() {
+    let folder = TempDir::new().unwrap();
+    let (scene, csv) =
+        (written(&folder, "pad.toml", PAD), written(&folder, "drop.csv", &record(1)));
+    let (to, missing) = (format!("{csv}:force=pad.force"), at(&folder, "none/deep/f.toml"));
+    let done = run(&["fit", &scene, "--to", &to, "--vary", "C=10..20000 N s/m", "--out", &missing]);
+    let words = err(&done).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(code(&done) == 2 && words.contains("there is no folder `"), "{words}");
+    assert!(!words.contains("no such file"), "{words}");
+}

@@ -25,8 +25,8 @@ fn normal(stream: &mut Stream) -> f64 {
 }
 
 /// The deceleration of a mass that meets the pad about so much later, until the pad would pull, in closed form:
-/// `m ẍ + c ẋ + k x = 0`; with white noise of 1 m/s².
-fn record(stream: &mut Stream, before: f64) -> String {
+/// `m ẍ + c ẋ + k x = 0`; with white noise \[m/s²\].
+fn record(stream: &mut Stream, before: f64, noise: f64) -> String {
     let [spring, dashpot] = TRUTH;
     let rate = 0.5 * dashpot / MASS;
     let omega = (spring / MASS - rate * rate).sqrt();
@@ -41,7 +41,7 @@ fn record(stream: &mut Stream, before: f64) -> String {
         let (way, speed) = (decayed * sine / omega, decayed * (cosine - rate / omega * sine));
         let is_touched = (0.0..=release).contains(&(time - late));
         let push = if is_touched { (spring * way + dashpot * speed) / MASS } else { 0.0 };
-        writeln!(rows, "{time:.6},{:.5}", push + normal(stream)).unwrap();
+        writeln!(rows, "{time:.6},{:.5}", push + noise * normal(stream)).unwrap();
     }
     rows
 }
@@ -59,7 +59,7 @@ fn a_pad_whose_force_jumps_is_found_from_twice_its_stiffness_however_long_the_re
     let (mut stream, mut held) = (Stream::new(11), [0; 2]);
     let befores = [4e-3, 1e-3, 20e-3].into_iter().cycle();
     for before in befores.take(45) {
-        let answer = fitted(&record(&mut stream, before));
+        let answer = fitted(&record(&mut stream, before, 1.0));
         assert_eq!(answer["converged"], true, "{before}");
         let rms = answer["tests"][0]["rms"].as_f64().unwrap();
         assert!(rms < 1.2, "{before}: {rms}");
@@ -77,12 +77,12 @@ fn a_pad_whose_force_jumps_is_found_from_twice_its_stiffness_however_long_the_re
 
 #[test]
 fn what_did_not_converge_or_ended_on_a_bound_has_no_interval_and_is_not_identified() {
-    let rows = record(&mut Stream::new(3), 4e-3);
+    let rows = record(&mut Stream::new(3), 4e-3, 1.0);
     let folder = TempDir::new().unwrap();
     let (scene, record) = (file(&folder, "pad.toml", SCENE), file(&folder, "drop.csv", &rows));
     let to = format!("{}:acc=head.acceleration", text(&record));
-    let asked =
-        ["fit", text(&scene), "--to", &to, "--vary", "K=5..20 kN/m", "--vary", "C=10..5000 N s/m"];
+    let varied = ["--vary", "K=5..20 kN/m", "--vary", "C=10..5000 N s/m", "--starts", "1"];
+    let asked = [&["fit", text(&scene), "--to", &to][..], &varied].concat();
     let bound = json(&[&asked[..], &["--json"]].concat());
     let parameters = &bound["parameters"];
     assert_eq!(parameters["K"]["on_bound"], true);
@@ -92,4 +92,56 @@ fn what_did_not_converge_or_ended_on_a_bound_has_no_interval_and_is_not_identifi
     assert_eq!(code(&told), 0);
     let words = out(&told).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("it has no interval"), "{words}");
+    // Nor has anything a band that follows from such numbers.
+    let (_, measures) = words.split_once("The fitted scene").unwrap();
+    assert!(measures.contains("a number is on its bound") && !measures.contains('±'), "{words}");
+    let own = &bound["measures"]["pad.peak-force"];
+    assert!(own["value"].is_f64() && own["low"].is_null() && own["high"].is_null(), "{own}");
+    assert_eq!([&own["no_band"], &own["curved"]], [&Value::from("on-bound"), &false.into()]);
+    let band = bound["tests"][0]["curve"]["band"].as_array().unwrap();
+    assert!(!band.is_empty() && band.iter().all(Value::is_null));
+    let scatter = run(&[&asked[..], &["--scatter"]].concat());
+    let words = out(&scatter).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("no scatter is written: a number is on its bound"), "{words}");
+}
+
+#[test]
+fn an_exact_record_tells_of_no_rounding() {
+    let rows = record(&mut Stream::new(5), 4e-3, 0.0);
+    let folder = TempDir::new().unwrap();
+    let (scene, record) = (file(&folder, "pad.toml", SCENE), file(&folder, "drop.csv", &rows));
+    let to = format!("{}:acc=head.acceleration", text(&record));
+    let varied = ["--vary", "K=5..500 kN/m", "--vary", "C=10..5000 N s/m"];
+    let told = run(&[&["fit", text(&scene), "--to", &to][..], &varied].concat());
+    let words = out(&told).split_whitespace().collect::<Vec<_>>().join(" ");
+    for word in ["curved", "far off", "what is left is", "±"] {
+        assert!(!words.contains(word), "{word}: {words}");
+    }
+    // Indices are plain numbers and accelerations in g, as in runs; a band is less than what runs are solved to.
+    let (_, measures) = words.split_once("head.peak-acceleration").unwrap();
+    assert!(
+        measures.contains(" g < ") && measures.contains("head.severity-index 14.36 < "),
+        "{words}"
+    );
+}
+
+/// A third of a step before the touch and no rest: its rows alone tell the noise.
+#[test]
+fn what_is_left_where_no_noise_is_known_is_judged_by_how_its_rows_follow_each_other() {
+    let mut stream = Stream::new(8);
+    let right = fitted(&record(&mut stream, 0.2e-3, 1.0));
+    let test = |own: &Value| own["tests"][0].clone();
+    assert!(test(&right)["noise_at_rest"].is_null() && test(&right)["structured"] == false);
+    assert_eq!(right["parameters"]["K"]["identified"], true);
+    // Bounds that do not hold the truth leave much that is no noise.
+    let folder = TempDir::new().unwrap();
+    let scene =
+        SCENE.replace("kelvin-voigt = { spring = \"K\", dashpot = \"C\" }", "spring = \"K\"");
+    let scene = file(&folder, "pad.toml", &scene.replace("C = \"150 N s/m\"\n", ""));
+    let record = file(&folder, "drop.csv", &record(&mut stream, 0.2e-3, 1.0));
+    let to = format!("{}:acc=head.acceleration", text(&record));
+    let own = json(&["fit", text(&scene), "--to", &to, "--vary", "K=5..500 kN/m", "--json"]);
+    assert_eq!([&test(&own)["structured"], &test(&own)["missed"]], [true, true], "{own}");
+    assert_eq!(own["parameters"]["K"]["identified"], false);
+    assert_eq!(own["measures"]["pad.peak-force"]["no_band"], "missed");
 }

@@ -125,6 +125,7 @@ fn a_zero_that_rows_before_the_impact_contradict_is_told() {
     assert_eq!(status, 0, "{text}");
     let told = "rows before the impact read 0 m/s² where nothing happens, and the fitted zero is ";
     assert!(text.contains(told), "{text}");
+    assert!(text.contains("not identified") && !text.contains('±'), "{text}");
     fs::write(folder.0.path().join("pad.toml"), SCENE).unwrap();
     let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &range);
     assert!(!text.contains("the fitted zero is"), "{text}");

@@ -1,5 +1,7 @@
 //! The choice among candidates.
 
+use serde::Serialize;
+
 use crate::network::{Kind, NetworkFit, Test};
 
 /// A candidate that is farther than the nearest by no more than this part is as near.
@@ -44,7 +46,8 @@ pub enum Basis {
 }
 
 /// What is said of a candidate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// It has the fewest numbers of those that are near enough.
     Chosen,

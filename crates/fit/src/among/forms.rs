@@ -4,7 +4,7 @@ use dashpot_network::{Model, dashpot, spring};
 
 use crate::network::Number;
 
-/// Words of all forms, and what they are. **A new form is registered here**, in `Shape` and in its model.
+/// Words of all forms, and what they are. **A new form is registered here**, and in `Form::named`.
 pub const KNOWN: &[(&str, &str)] = &[
     ("spring", "a spring"),
     ("kelvin-voigt", "a spring and a dashpot in parallel"),
@@ -20,21 +20,13 @@ const MOST_BRANCHES: usize = 8;
 /// A constant may be so many times larger or smaller than what is guessed.
 const WIDE: f64 = 100.0;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shape {
-    Spring,
-    KelvinVoigt,
-    Maxwell,
-    Zener,
-    Burgers,
-    Prony(usize),
-}
-
 /// A form of a model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Form {
     word: String,
-    shape: Shape,
+    /// Whether its groups stand in series, each of them in parallel, or the other way round.
+    is_series: bool,
+    groups: Vec<Vec<String>>,
 }
 
 /// A constant of a form.
@@ -59,19 +51,26 @@ impl Form {
     /// assert!(Form::named("prony-0").is_none() && Form::named("foam").is_none());
     /// ```
     pub fn named(word: &str) -> Option<Self> {
-        let shape = match word {
-            "spring" => Shape::Spring,
-            "kelvin-voigt" => Shape::KelvinVoigt,
-            "maxwell" => Shape::Maxwell,
-            "zener" => Shape::Zener,
-            "burgers" => Shape::Burgers,
-            "prony" => Shape::Prony(BRANCHES),
+        let of = |groups: &[&[&str]]| -> Vec<Vec<String>> {
+            groups.iter().map(|own| own.iter().map(ToString::to_string).collect()).collect()
+        };
+        let prony = |count: usize| {
+            let branches = (1..=count).map(|at| vec![format!("k{at}"), format!("c{at}")]);
+            of(&[&["k"]]).into_iter().chain(branches).collect()
+        };
+        let groups = match word {
+            "spring" => of(&[&["k"]]),
+            "kelvin-voigt" => of(&[&["k"], &["c"]]),
+            "maxwell" => of(&[&["k", "c"]]),
+            "zener" => of(&[&["k"], &["k1", "c1"]]),
+            "burgers" => of(&[&["k1"], &["c1"], &["k2", "c2"]]),
+            "prony" => prony(BRANCHES),
             _ => {
                 let count = word.strip_prefix("prony-")?.parse().ok()?;
-                (1..=MOST_BRANCHES).contains(&count).then_some(Shape::Prony(count))?
+                (1..=MOST_BRANCHES).contains(&count).then(|| prony(count))?
             }
         };
-        Some(Self { word: word.to_owned(), shape })
+        Some(Self { word: word.to_owned(), is_series: word == "burgers", groups })
     }
 
     /// Its word.
@@ -81,36 +80,25 @@ impl Form {
 
     /// Its constants, in the order of their values.
     pub fn constants(&self) -> Vec<Constant> {
-        let own = |name: &str| Constant { name: name.to_owned(), is_spring: name.starts_with('k') };
-        match self.shape {
-            Shape::Spring => vec![own("k")],
-            Shape::KelvinVoigt | Shape::Maxwell => vec![own("k"), own("c")],
-            Shape::Zener => vec![own("k"), own("k1"), own("c1")],
-            Shape::Burgers => ["k1", "c1", "k2", "c2"].map(own).to_vec(),
-            Shape::Prony(count) => {
-                let branch = |at: usize| [format!("k{at}"), format!("c{at}")];
-                let branches = (1..=count).flat_map(branch).map(|name| own(&name));
-                std::iter::once(own("k")).chain(branches).collect()
-            }
-        }
+        let own = |name: &String| Constant { name: name.clone(), is_spring: name.starts_with('k') };
+        self.groups.iter().flatten().map(own).collect()
     }
 
     /// The model with these values of its constants in SI units; those that are not there are zero.
     pub fn model(&self, values: &[f64]) -> Model {
-        let of = |at: usize| values.get(at).copied().unwrap_or(0.0);
-        let (k, c) = (|at: usize| spring(of(at)), |at: usize| dashpot(of(at)));
-        let branch = |at: usize| Model::series([k(at), c(at + 1)]);
-        match self.shape {
-            Shape::Spring => k(0),
-            Shape::KelvinVoigt => Model::parallel([k(0), c(1)]),
-            Shape::Maxwell => branch(0),
-            Shape::Zener => Model::parallel([k(0), branch(1)]),
-            Shape::Burgers => Model::series([k(0), c(1), Model::parallel([k(2), c(3)])]),
-            Shape::Prony(count) => {
-                let branches = (0..count).map(|at| branch(2 * at + 1));
-                Model::parallel(std::iter::once(k(0)).chain(branches))
-            }
-        }
+        let mut values = values.iter().copied();
+        let mut part = |name: &String| {
+            let value = values.next().unwrap_or(0.0);
+            if name.starts_with('k') { spring(value) } else { dashpot(value) }
+        };
+        let join = |is_series: bool, mut parts: Vec<Model>| match parts.len() {
+            1 => parts.swap_remove(0),
+            _ if is_series => Model::series(parts),
+            _ => Model::parallel(parts),
+        };
+        let groups = self.groups.iter();
+        let groups = groups.map(|own| join(!self.is_series, own.iter().map(&mut part).collect()));
+        join(self.is_series, groups.collect())
     }
 
     /// Its constants as numbers that are searched, about a stiffness \[N/m\] and with times between two \[s\].

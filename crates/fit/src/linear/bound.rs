@@ -70,13 +70,8 @@ pub(super) fn lower_bound(problem: &Problem) -> f64 {
 /// Times at equal ratios.
 fn spread(low: f64, high: f64, per_decade: f64) -> Vec<f64> {
     let step = std::f64::consts::LN_10 / per_decade;
-    let mut all = Vec::new();
-    let mut at = low.ln();
-    while at < high.ln() + step {
-        all.push(at.exp());
-        at += step;
-    }
-    all
+    let logs = (0..).map(|at| low.ln() + step * f64::from(at));
+    logs.take_while(|log| *log < high.ln() + step).map(f64::exp).collect()
 }
 
 /// All branches of a problem, scaled so that they have limits at both ends.

@@ -1,12 +1,11 @@
 //! How well records determine a spectrum: bands on its curve, and what other spectra at the same floor say.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DVector};
 
 use super::{
     floor::{Dense, SPRING},
     kernel::Term,
     problem::Problem,
-    record::Form,
     spectrum::Spectrum,
 };
 
@@ -31,60 +30,25 @@ pub(super) fn independent_share(problem: &Problem, residual: &DVector<f64>) -> f
     ((1.0 - follows) / (1.0 + follows)).clamp(LEAST_SHARE, 1.0)
 }
 
-/// The covariance of the logarithms of a refined spectrum, and what bands on its curve follow from it.
-#[derive(Debug, Clone)]
-pub struct Band {
-    form: Form,
-    spectrum: Spectrum,
-    /// Terms of the nearest network.
-    nearest: Spectrum,
-    covariance: DMatrix<f64>,
-}
-
-impl Band {
-    pub(super) fn of(
-        problem: &Problem,
-        spectrum: &Spectrum,
-        (nearest, floor): (&Spectrum, &DVector<f64>),
-    ) -> Option<Self> {
-        let (_, jacobian) = spectrum.linearised(problem);
-        let free = problem.rows().saturating_sub(jacobian.ncols()).max(1) as f64;
-        let share = independent_share(problem, floor);
-        let variance = floor.norm_squared() / (free * share);
-        let mut normal = jacobian.tr_mul(&jacobian);
-        let largest = normal.diagonal().max();
-        (0..normal.nrows()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
-        let covariance = Cholesky::new(normal)?.inverse() * variance;
-        let (spectrum, nearest) = (spectrum.clone(), nearest.clone());
-        Some(Self { form: problem.form, spectrum, nearest, covariance })
-    }
-
-    /// The relaxation modulus, or the creep compliance, at a time \[s\], and the half-width of its 95 % band: that of
-    /// noise, and what fewer branches change in the curve of the nearest network.
-    pub fn at(&self, time: f64) -> (f64, f64) {
-        let strength = |(term, strength): (Term, f64)| match (self.form, term) {
-            (_, Term::Spring) => strength,
-            (Form::Maxwell, Term::Dashpot) => 0.0,
-            (Form::Kelvin, Term::Dashpot) => strength * time,
-            (Form::Maxwell, Term::Branch(own)) => strength * (-time / own).exp(),
-            (Form::Kelvin, Term::Branch(own)) => strength * -(-time / own).exp_m1(),
-        };
-        let of_time = |(own, strength): &(f64, f64)| {
-            let change = strength * time / own * (-time / own).exp();
-            if self.form == Form::Maxwell { change } else { -change }
-        };
-        let gradient: Vec<f64> = self
-            .spectrum
-            .terms()
-            .map(strength)
-            .chain(self.spectrum.branches.iter().map(of_time))
-            .collect();
-        let gradient = DVector::from_vec(gradient);
-        let variance = gradient.dot(&(&self.covariance * &gradient));
-        let value = self.spectrum.at(self.form, time);
-        let fewer = (value - self.nearest.at(self.form, time)).abs();
-        (value, (CHI_SQUARE * variance.max(0.0)).sqrt() + fewer)
-    }
+/// Half of the 95 % band of each row of a refined spectrum, in its weight: that of noise, by the covariance of the
+/// logarithms, and what fewer branches change in the nearest network; `few` and `floor` are what both leave. `None` where
+/// branches cannot be told apart.
+pub(super) fn bands(
+    problem: &Problem,
+    spectrum: &Spectrum,
+    [floor, few]: [&DVector<f64>; 2],
+) -> Option<DVector<f64>> {
+    let (_, jacobian) = spectrum.linearised(problem);
+    let free = problem.rows().saturating_sub(jacobian.ncols()).max(1) as f64;
+    let variance = floor.norm_squared() / (free * independent_share(problem, floor));
+    let mut normal = jacobian.tr_mul(&jacobian);
+    let largest = normal.diagonal().max();
+    (0..normal.nrows()).for_each(|at| normal[(at, at)] += f64::EPSILON * largest);
+    let spread = &jacobian * Cholesky::new(normal)?.inverse() * variance;
+    Some(DVector::from_fn(problem.rows(), |row, _| {
+        let variance = spread.row(row).dot(&jacobian.row(row));
+        (CHI_SQUARE * variance.max(0.0)).sqrt() + (few[row] - floor[row]).abs()
+    }))
 }
 
 /// From where to where a number may be while a passive network comes as near to the records as the nearest one does,

@@ -1,5 +1,7 @@
 //! Storage and loss of one material determine each other (Kramers and Kronig); measured ones may not fit together.
 
+use serde::Serialize;
+
 use super::{
     floor::{Dense, Misfit},
     problem::Problem,
@@ -10,7 +12,7 @@ use super::{
 const CONTRADICTS: f64 = 2.0;
 
 /// Storage and loss, of which each alone is that of a passive network, and both together are not.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Contradiction {
     /// How far the nearest network is from the storage moduli alone, in the mean (root of the mean square).
     pub storage_alone: f64,
@@ -69,7 +71,6 @@ fn weighted_median(mut pairs: Vec<(f64, f64)>) -> f64 {
     found.map_or(0.0, |own| own.0)
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+fn median(values: Vec<f64>) -> f64 {
+    weighted_median(values.into_iter().map(|own| (own, 1.0)).collect())
 }

@@ -2,22 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::{certainty::Band, problem::Problem, record::Record};
-
-/// What rows of a record tell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// The modulus after a step, over time \[s\].
-    Relaxation,
-    /// The compliance after a step, over time \[s\].
-    Creep,
-    /// The storage modulus over the angular frequency \[rad/s\].
-    Storage,
-    /// The loss modulus over the angular frequency \[rad/s\].
-    Loss,
-    /// What answers to a history, over time \[s\].
-    Answer,
-}
+use super::{
+    problem::Problem,
+    record::{Column, Kind, Record},
+};
 
 /// A row beside what was fitted to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,51 +33,25 @@ pub struct FittedCurve {
     pub rows: Vec<FittedRow>,
 }
 
-impl Record {
-    /// The kinds of its rows, in the order of the channels that a problem makes of it.
-    fn kinds(&self) -> &'static [Kind] {
-        match self {
-            Self::Relaxation(_) => &[Kind::Relaxation],
-            Self::Creep(_) => &[Kind::Creep],
-            Self::Storage(_) => &[Kind::Storage],
-            Self::Loss(_) => &[Kind::Loss],
-            Self::Oscillation(_) => &[Kind::Storage, Kind::Loss],
-            Self::Strained(_) | Self::Stressed(_) => &[Kind::Answer],
-        }
-    }
-
-    /// Times, or angular frequencies.
-    fn places(&self) -> Vec<f64> {
-        match self {
-            Self::Relaxation(rows) | Self::Creep(rows) | Self::Storage(rows) | Self::Loss(rows) => {
-                rows.iter().map(|own| own.0).collect()
-            }
-            Self::Oscillation(rows) | Self::Strained(rows) | Self::Stressed(rows) => {
-                rows.iter().map(|own| own[0]).collect()
-            }
-        }
-    }
-}
-
 /// All rows with what the fewest branches and the nearest network leave of them.
 pub(super) fn curves(
     records: &[Record],
     problem: &Problem,
     [floor, few]: [&DVector<f64>; 2],
-    band: Option<&Band>,
+    halves: Option<&DVector<f64>>,
 ) -> Vec<FittedCurve> {
     let weights: Vec<f64> = problem.weights().collect();
-    let kinds = records.iter().flat_map(|own| own.kinds().iter().map(move |kind| (own, *kind)));
-    let each = problem.parts().zip(kinds).map(|((record, rows), (own, kind))| {
+    let columns = records.iter().flat_map(Record::columns);
+    let each = problem.parts().zip(columns).map(|((record, rows), Column { kind, places, .. })| {
         let is_curve = matches!(kind, Kind::Relaxation | Kind::Creep);
         let row = |(row, at): (usize, f64)| FittedRow {
             at,
             measured: problem.target[row] / weights[row],
             model: (problem.target[row] + few[row]) / weights[row],
             floor: (problem.target[row] + floor[row]) / weights[row],
-            half: band.filter(|_| is_curve).map(|own| own.at(at).1),
+            half: halves.filter(|_| is_curve).map(|own| own[row] / weights[row]),
         };
-        FittedCurve { record, kind, rows: rows.zip(own.places()).map(row).collect() }
+        FittedCurve { record, kind, rows: rows.zip(places).map(row).collect() }
     });
     each.collect()
 }

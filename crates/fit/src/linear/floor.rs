@@ -44,14 +44,10 @@ impl Dense {
     }
 
     fn between(problem: &Problem, (low, high): (f64, f64)) -> Self {
-        let decades = (high / low).log10();
-        let steps = (PER_DECADE * decades).min(MOST_TIMES).ceil().max(1.0);
-        let mut terms = vec![Term::Spring, Term::Dashpot];
-        let mut step = 0.0;
-        while step <= steps {
-            terms.push(Term::Branch(low * (high / low).powf(step / steps)));
-            step += 1.0;
-        }
+        let steps = (PER_DECADE * (high / low).log10()).min(MOST_TIMES).ceil().max(1.0);
+        let places = (0..).map(f64::from).take_while(|own| *own <= steps);
+        let branches = places.map(|own| Term::Branch(low * (high / low).powf(own / steps)));
+        let terms: Vec<Term> = [Term::Spring, Term::Dashpot].into_iter().chain(branches).collect();
         let mut columns = problem.columns(&terms);
         if problem.is_solid && problem.form == Form::Kelvin {
             columns.column_mut(DASHPOT).fill(0.0);
@@ -94,6 +90,32 @@ impl Dense {
             }
         }
         Spectrum { spring: minimum.values[SPRING], dashpot: minimum.values[DASHPOT], branches }
+    }
+}
+
+/// Steps of refinement, until one wins less than this part.
+const STEPS: usize = 40;
+const SETTLED: f64 = 1e-4;
+
+/// The nearest network: that on the grid of times, or where it comes nearer one of fewer terms between them.
+#[derive(Debug, Clone)]
+pub(super) struct Nearest {
+    /// The terms on the grid, those that are next to each other as one, refined.
+    pub(super) start: Spectrum,
+    /// What it leaves of the rows.
+    pub(super) left: DVector<f64>,
+}
+
+impl Nearest {
+    /// That of a problem; `None` where it has no terms.
+    pub(super) fn of(problem: &Problem) -> Option<Self> {
+        let dense = Dense::within(problem);
+        let minimum = dense.minimum();
+        let mut start = dense.spectrum(&minimum);
+        start.terms().next()?;
+        let residual = start.refine(problem, STEPS, SETTLED);
+        let is_nearer = residual.norm() < minimum.residual.norm();
+        Some(Self { start, left: if is_nearer { residual } else { minimum.residual } })
     }
 }
 

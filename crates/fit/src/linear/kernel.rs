@@ -1,6 +1,6 @@
 //! What a term of a spectrum adds to the rows of a record, and how that changes with its time.
 
-use super::record::Record;
+use super::record::{Column, Kind, Record};
 
 /// A term of a spectrum, of unit strength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,30 +60,17 @@ const STORED: f64 = 0.385;
 const LOST: f64 = 0.5;
 const RATE: f64 = 0.9403;
 
-/// Rows of one kind, each with its weight.
+/// Rows of one kind, each with its weight: `e^(−t/τ)` of a relaxation, `1 − e^(−t/τ)` of creep, `ω²τ²/(1 + ω²τ²)` of
+/// storage, `ωτ/(1 + ω²τ²)` of loss, or the answer to a history.
 #[derive(Debug, Clone)]
 pub(super) struct Channel {
-    kernel: Kernel,
+    kind: Kind,
+    places: Vec<f64>,
+    history: History,
     /// The measured values.
     pub(super) values: Vec<f64>,
     /// What a deviation is multiplied by, so that it is a part of the value or of the largest.
     pub(super) weights: Vec<f64>,
-}
-
-#[derive(Debug, Clone)]
-enum Kernel {
-    /// `e^(−t/τ)` at these times.
-    Relaxation(Vec<f64>),
-    /// `1 − e^(−t/τ)` at these times.
-    Creep(Vec<f64>),
-    /// `ω²τ²/(1 + ω²τ²)` at these angular frequencies.
-    Storage(Vec<f64>),
-    /// `ωτ/(1 + ω²τ²)` at these angular frequencies.
-    Loss(Vec<f64>),
-    /// The answer to a strain, straight between corners.
-    Strained(History),
-    /// The answer to a stress, straight between corners.
-    Stressed(History),
 }
 
 /// What was done, straight between corners and zero before the first, and when the answer was looked at.
@@ -97,78 +84,40 @@ struct History {
 impl Channel {
     /// The channels of a record, whose answer was written down `shift` \[s\] later than what was done.
     pub(super) fn of(record: &Record, shift: f64) -> Vec<Self> {
-        let relative = |kernel, values: Vec<f64>| {
-            let weights = values.iter().map(|own| own.recip()).collect();
-            Self { kernel, values, weights }
+        let largest = record.largest();
+        let channel = |Column { kind, places, done, values }: Column| {
+            let weight = |own: &f64| largest.unwrap_or(*own).recip();
+            let weights = values.iter().map(weight).collect();
+            let corners: Vec<(f64, f64)> = places.iter().copied().zip(done).collect();
+            let instants = corners.iter().map(|own| place(&corners, own.0 - shift)).collect();
+            Self { kind, places, history: History { corners, instants }, values, weights }
         };
-        let pairs = |rows: &[(f64, f64)]| -> (Vec<f64>, Vec<f64>) { rows.iter().copied().unzip() };
-        let column =
-            |rows: &[[f64; 3]], at: usize| -> Vec<f64> { rows.iter().map(|own| own[at]).collect() };
-        let driven = |rows: &[[f64; 3]], is_strained| {
-            let corners: Vec<(f64, f64)> = rows.iter().map(|own| (own[0], own[1])).collect();
-            let instants = rows.iter().map(|own| place(&corners, own[0] - shift)).collect();
-            let history = History { corners, instants };
-            let values = column(rows, 2);
-            let largest = values.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
-            let weights = vec![largest.recip(); values.len()];
-            let kernel =
-                if is_strained { Kernel::Strained(history) } else { Kernel::Stressed(history) };
-            Self { kernel, values, weights }
-        };
-        match record {
-            Record::Relaxation(rows) => {
-                let (times, values) = pairs(rows);
-                vec![relative(Kernel::Relaxation(times), values)]
-            }
-            Record::Creep(rows) => {
-                let (times, values) = pairs(rows);
-                vec![relative(Kernel::Creep(times), values)]
-            }
-            Record::Storage(rows) => {
-                let (omegas, values) = pairs(rows);
-                vec![relative(Kernel::Storage(omegas), values)]
-            }
-            Record::Loss(rows) => {
-                let (omegas, values) = pairs(rows);
-                vec![relative(Kernel::Loss(omegas), values)]
-            }
-            Record::Oscillation(rows) => {
-                let omegas = column(rows, 0);
-                vec![
-                    relative(Kernel::Storage(omegas.clone()), column(rows, 1)),
-                    relative(Kernel::Loss(omegas), column(rows, 2)),
-                ]
-            }
-            Record::Strained(rows) => vec![driven(rows, true)],
-            Record::Stressed(rows) => vec![driven(rows, false)],
-        }
+        record.columns().into_iter().map(channel).collect()
     }
 
     /// The same with times of a relaxation that count from this one on; `None` where it is no relaxation.
     pub(super) fn since(&self, first: f64) -> Option<Self> {
-        let Kernel::Relaxation(times) = &self.kernel else { return None };
-        let kernel = Kernel::Relaxation(times.iter().map(|own| own - first).collect());
-        Some(Self { kernel, ..self.clone() })
+        let places = || self.places.iter().map(|own| own - first).collect();
+        (self.kind == Kind::Relaxation).then(|| Self { places: places(), ..self.clone() })
     }
 
     /// The power of their times as which fast Maxwell elements answer in it; 0 where they do not fade.
     pub(super) fn fades(&self) -> Option<i32> {
-        match &self.kernel {
-            Kernel::Relaxation(_) => None,
-            Kernel::Storage(_) => Some(2),
-            Kernel::Strained(own) if own.is_struck() => Some(0),
+        match self.kind {
+            Kind::Relaxation => None,
+            Kind::Storage => Some(2),
+            Kind::Stress if self.history.is_struck() => Some(0),
             _ => Some(1),
         }
     }
 
     /// The shortest and the longest time at which a branch changes from one limit to another \[s\].
     pub(super) fn span(&self) -> (f64, f64) {
-        let times: Vec<f64> = match &self.kernel {
-            Kernel::Relaxation(times) | Kernel::Creep(times) => times.clone(),
-            Kernel::Storage(omegas) | Kernel::Loss(omegas) => {
-                omegas.iter().map(|own| own.recip()).collect()
-            }
-            Kernel::Strained(own) | Kernel::Stressed(own) => {
+        let (own, places) = (&self.history, self.places.iter());
+        let times: Vec<f64> = match self.kind {
+            Kind::Relaxation | Kind::Creep => places.copied().collect(),
+            Kind::Storage | Kind::Loss => places.map(|own| own.recip()).collect(),
+            Kind::Stress | Kind::Strain => {
                 let steps = own.corners.windows(2).map(|pair| pair[1].0 - pair[0].0);
                 let all = (0..own.instants.len()).map(|row| own.elapsed(row));
                 steps.chain(own.instants.iter().map(|own| own.1)).chain(all).collect()
@@ -180,66 +129,52 @@ impl Channel {
 
     /// Bounds of the second derivatives of branches of unit strength times `scale`, by the logarithm of their time.
     pub(super) fn curvature(&self, scale: Scale) -> Vec<f64> {
-        let of = |all: &[f64], own: &dyn Fn(f64) -> f64| all.iter().map(|at| own(*at)).collect();
-        match &self.kernel {
-            Kernel::Relaxation(times) => of(times, &|t| DECAY + FAST_DECAY * scale.part(t)),
-            Kernel::Creep(times) => of(times, &|t| DECAY * (1.0 + scale.part(t))),
-            Kernel::Storage(omegas) => of(omegas, &|own| STORED + LOST * scale.part(own.recip())),
-            Kernel::Loss(omegas) => of(omegas, &|own| LOST + LOST * scale.part(own.recip())),
-            Kernel::Strained(own) | Kernel::Stressed(own) => own.curvature(scale),
+        let of = |own: &dyn Fn(f64) -> f64| self.places.iter().map(|at| own(*at)).collect();
+        match self.kind {
+            Kind::Relaxation => of(&|t| DECAY + FAST_DECAY * scale.part(t)),
+            Kind::Creep => of(&|t| DECAY * (1.0 + scale.part(t))),
+            Kind::Storage => of(&|omega| STORED + LOST * scale.part(omega.recip())),
+            Kind::Loss => of(&|omega| LOST + LOST * scale.part(omega.recip())),
+            Kind::Stress | Kind::Strain => self.history.curvature(scale),
         }
     }
 
     /// What a term adds to each row, and for a branch how that changes with the logarithm of its time.
     pub(super) fn term(&self, term: Term, value: &mut [f64], slope: &mut [f64]) {
         slope.fill(0.0);
-        match term {
-            Term::Spring => self.spring(value),
-            Term::Dashpot => self.dashpot(value),
-            Term::Branch(time) => self.branch(time, value, slope),
-        }
-    }
-
-    fn spring(&self, value: &mut [f64]) {
-        match &self.kernel {
-            Kernel::Relaxation(_) | Kernel::Creep(_) | Kernel::Storage(_) => value.fill(1.0),
-            Kernel::Loss(_) => value.fill(0.0),
-            Kernel::Strained(history) | Kernel::Stressed(history) => history.driven(value),
-        }
-    }
-
-    fn dashpot(&self, value: &mut [f64]) {
-        match &self.kernel {
-            Kernel::Relaxation(_) | Kernel::Storage(_) => value.fill(0.0),
-            Kernel::Creep(at) | Kernel::Loss(at) => value.copy_from_slice(at),
-            Kernel::Strained(history) => history.rate(value),
-            Kernel::Stressed(history) => history.integral(value),
+        let history = &self.history;
+        match (term, self.kind) {
+            (Term::Branch(time), _) => self.branch(time, value, slope),
+            (Term::Spring, Kind::Stress | Kind::Strain) => history.driven(value),
+            (Term::Spring, Kind::Loss) | (Term::Dashpot, Kind::Relaxation | Kind::Storage) => {
+                value.fill(0.0);
+            }
+            (Term::Spring, _) => value.fill(1.0),
+            (Term::Dashpot, Kind::Creep | Kind::Loss) => value.copy_from_slice(&self.places),
+            (Term::Dashpot, Kind::Stress) => history.rate(value),
+            (Term::Dashpot, Kind::Strain) => history.integral(value),
         }
     }
 
     fn branch(&self, time: f64, value: &mut [f64], slope: &mut [f64]) {
-        let each = value.iter_mut().zip(slope.iter_mut());
-        match &self.kernel {
-            Kernel::Relaxation(times) => each.zip(times).for_each(|((value, slope), t)| {
-                let x = t / time;
-                *value = (-x).exp();
-                *slope = x * *value;
-            }),
-            Kernel::Creep(times) => each.zip(times).for_each(|((value, slope), t)| {
-                let x = t / time;
-                *value = -(-x).exp_m1();
-                *slope = -x * (-x).exp();
-            }),
-            Kernel::Storage(omegas) => each.zip(omegas).for_each(|((value, slope), omega)| {
-                let [storage, loss] = oscillating(omega * time);
-                (*value, *slope) = (storage, 2.0 * loss * loss);
-            }),
-            Kernel::Loss(omegas) => each.zip(omegas).for_each(|((value, slope), omega)| {
-                let [storage, loss] = oscillating(omega * time);
-                (*value, *slope) = (loss, loss * (1.0 - 2.0 * storage));
-            }),
-            Kernel::Strained(history) => history.relaxing(time, value, slope),
-            Kernel::Stressed(history) => history.creeping(time, value, slope),
+        // The value, and how it changes with the logarithm of the time, by `t/τ` or `ωτ`.
+        let at: fn(f64) -> (f64, f64) = match self.kind {
+            Kind::Relaxation => |x| ((-x).exp(), x * (-x).exp()),
+            Kind::Creep => |x| (-(-x).exp_m1(), -x * (-x).exp()),
+            Kind::Storage => |x| {
+                let [storage, loss] = oscillating(x);
+                (storage, 2.0 * loss * loss)
+            },
+            Kind::Loss => |x| {
+                let [storage, loss] = oscillating(x);
+                (loss, loss * (1.0 - 2.0 * storage))
+            },
+            Kind::Stress => return self.history.relaxing(time, value, slope),
+            Kind::Strain => return self.history.creeping(time, value, slope),
+        };
+        let factor = if self.kind.is_oscillation() { time } else { time.recip() };
+        for ((value, slope), place) in value.iter_mut().zip(slope).zip(&self.places) {
+            (*value, *slope) = at(place * factor);
         }
     }
 }

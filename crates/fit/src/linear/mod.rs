@@ -7,7 +7,6 @@ mod contradiction;
 mod curves;
 mod floor;
 mod kernel;
-mod nearest;
 mod outliers;
 mod problem;
 mod record;
@@ -19,20 +18,19 @@ use thiserror::Error;
 use self::{
     bound::lower_bound,
     branches::fewest,
-    certainty::End,
-    floor::Dense,
-    nearest::Nearest,
+    certainty::{End, bands},
+    floor::{Dense, Nearest},
     outliers::{may_be_left_out, outliers},
     problem::Problem,
 };
 pub use self::{
     branches::Against,
-    certainty::{Band, Range},
+    certainty::Range,
     contradiction::Contradiction,
-    curves::{FittedCurve, FittedRow, Kind},
+    curves::{FittedCurve, FittedRow},
     floor::Misfit,
     outliers::Outlier,
-    record::{Form, Record, RecordFault},
+    record::{Column, Form, Kind, Record, RecordFault},
     spectrum::Spectrum,
 };
 
@@ -136,8 +134,6 @@ pub struct LinearFit {
     pub spring: Range,
     /// Instantaneous modulus, or compliance when all has crept, likewise.
     pub sum: Range,
-    /// Band on the curve; `None` where branches cannot be told apart.
-    pub band: Option<Band>,
     /// The slowest branch of which the records show most \[s\].
     pub slowest: f64,
     /// Between which times the branches are \[s\]: rows determine none that are faster or slower.
@@ -183,7 +179,8 @@ pub fn fit(records: &[Record], settings: LinearSettings) -> Result<LinearFit, Li
             break;
         }
         left_out = more;
-        let kept = records.iter().zip(&left_out).map(|(own, rows)| own.without(rows));
+        let kept =
+            records.iter().zip(&left_out).map(|(own, rows)| own.without(|at| rows.contains(&at)));
         counted = Counted::of(kept.collect(), settings)?;
     }
     counted.fitted((records, &left_out), settings)
@@ -233,13 +230,13 @@ impl Counted {
         settings: LinearSettings,
     ) -> Result<LinearFit, LinearFault> {
         let Self { records, shifts, problem, nearest, unshifted } = self;
-        let Nearest { spectrum, start, left } = nearest;
+        let Nearest { start, left } = nearest;
         let few = fewest(&problem, start, &left, settings.error);
         if settings.is_solid && problem.form == Form::Maxwell && few.spectrum.spring <= 0.0 {
             return Err(LinearFault::NoSolid);
         }
         let floor = lower_bound(&problem);
-        let band = Band::of(&problem, &few.spectrum, (&spectrum, &left));
+        let halves = bands(&problem, &few.spectrum, [&left, &few.residual]);
         let clocks = (&shifts[..], settings.is_shifted);
         let [spring, sum] = shift::ranges(&records, clocks, &problem, [End::Spring, End::Sum]);
         // Networks with branches that are slower or faster are as near.
@@ -266,11 +263,10 @@ impl Counted {
             floor,
             misfit: Misfit::of_vector(&few.residual),
             floor_unshifted: unshifted.map(|own| lower_bound(&own)),
-            curves: curves::curves(&records, &problem, [&left, &few.residual], band.as_ref()),
+            curves: curves::curves(&records, &problem, [&left, &few.residual], halves.as_ref()),
             records: each,
             spring: spring.around(few.spectrum.spring),
             sum: sum.around(end(&few.spectrum)),
-            band,
             spectrum: few.spectrum,
             slowest: problem.slowest(),
             limits: problem.limits,

@@ -84,12 +84,90 @@ impl RecordFault {
 /// The fewest rows that say something.
 const FEWEST: usize = 4;
 
+/// What a column of a record tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The modulus after a step, over time \[s\].
+    Relaxation,
+    /// The compliance after a step, over time \[s\].
+    Creep,
+    /// The storage modulus over the angular frequency \[rad/s\].
+    Storage,
+    /// The loss modulus over the angular frequency \[rad/s\].
+    Loss,
+    /// The stress that answers a strain, over time \[s\].
+    Stress,
+    /// The strain that answers a stress, over time \[s\].
+    Strain,
+}
+
+impl Kind {
+    /// Whether something was done that was measured beside it.
+    pub fn has_history(self) -> bool {
+        matches!(self, Self::Stress | Self::Strain)
+    }
+
+    /// Whether it is over a frequency.
+    pub fn is_oscillation(self) -> bool {
+        matches!(self, Self::Storage | Self::Loss)
+    }
+
+    /// What it is over, or what was done, and what it is.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Relaxation => ["time", "modulus"],
+            Self::Creep => ["time", "compliance"],
+            Self::Storage => ["frequency", "storage modulus"],
+            Self::Loss => ["frequency", "loss modulus"],
+            Self::Stress => ["strain", "stress"],
+            Self::Strain => ["stress", "strain"],
+        }
+    }
+}
+
+/// A column of a record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// What it tells.
+    pub kind: Kind,
+    /// Times \[s\], or angular frequencies \[rad/s\].
+    pub places: Vec<f64>,
+    /// What was done at these times; empty where it has no history.
+    pub done: Vec<f64>,
+    /// What was measured.
+    pub values: Vec<f64>,
+}
+
 impl Record {
     /// The form in which it is linear; of oscillation, moduli.
     pub fn form(&self) -> Form {
         match self {
             Self::Creep(_) | Self::Stressed(_) => Form::Kelvin,
             _ => Form::Maxwell,
+        }
+    }
+
+    /// What it has in its columns: one, or storage and loss.
+    pub fn columns(&self) -> Vec<Column> {
+        let pairs = |kind, rows: &[(f64, f64)]| {
+            let (places, values) = rows.iter().copied().unzip();
+            vec![Column { kind, places, done: Vec::new(), values }]
+        };
+        let at = |rows: &[[f64; 3]], at: usize| rows.iter().map(|own| own[at]).collect();
+        let column = |kind: Kind, rows: &[[f64; 3]], values| {
+            let done = if kind.has_history() { at(rows, 1) } else { Vec::new() };
+            Column { kind, places: at(rows, 0), done, values: at(rows, values) }
+        };
+        match self {
+            Self::Relaxation(rows) => pairs(Kind::Relaxation, rows),
+            Self::Creep(rows) => pairs(Kind::Creep, rows),
+            Self::Storage(rows) => pairs(Kind::Storage, rows),
+            Self::Loss(rows) => pairs(Kind::Loss, rows),
+            Self::Oscillation(rows) => {
+                vec![column(Kind::Storage, rows, 1), column(Kind::Loss, rows, 2)]
+            }
+            Self::Strained(rows) => vec![column(Kind::Stress, rows, 2)],
+            Self::Stressed(rows) => vec![column(Kind::Strain, rows, 2)],
         }
     }
 
@@ -119,18 +197,19 @@ impl Record {
         rows.iter().map(|own| own[2].abs()).reduce(f64::max)
     }
 
-    /// The record without some of its rows; one with a history as it is.
+    /// The record without some of its rows, by their numbers from 0.
     #[must_use]
-    pub(super) fn without(&self, left_out: &[usize]) -> Self {
+    pub fn without(&self, is_left_out: impl Fn(usize) -> bool) -> Self {
         let mut own = self.clone();
         let mut at = 0..;
-        let mut is_kept = || at.next().is_none_or(|at| !left_out.contains(&at));
+        let mut is_kept = || at.next().is_none_or(|at| !is_left_out(at));
         match &mut own {
             Self::Relaxation(rows) | Self::Creep(rows) | Self::Storage(rows) | Self::Loss(rows) => {
                 rows.retain(|_| is_kept());
             }
-            Self::Oscillation(rows) => rows.retain(|_| is_kept()),
-            Self::Strained(_) | Self::Stressed(_) => {}
+            Self::Oscillation(rows) | Self::Strained(rows) | Self::Stressed(rows) => {
+                rows.retain(|_| is_kept());
+            }
         }
         own
     }
@@ -144,62 +223,47 @@ impl Record {
         if self.rows() < FEWEST {
             return Err(RecordFault::TooFew { rows: self.rows() });
         }
-        let positive = |row: usize, what, value: f64| {
-            let is_one = value > 0.0 && value.is_finite();
-            if is_one { Ok(()) } else { Err(RecordFault::NotPositive { row, what, value }) }
-        };
-        let pairs = |rows: &[(f64, f64)], [first, second]: [&'static str; 2]| {
-            rows.iter().enumerate().try_for_each(|(row, own)| {
-                positive(row, first, own.0)?;
-                positive(row, second, own.1)
-            })
-        };
-        match self {
-            Self::Relaxation(rows) => pairs(rows, ["time", "modulus"]),
-            Self::Creep(rows) => pairs(rows, ["time", "compliance"]),
-            Self::Storage(rows) => pairs(rows, ["frequency", "storage modulus"]),
-            Self::Loss(rows) => pairs(rows, ["frequency", "loss modulus"]),
-            Self::Oscillation(rows) => rows.iter().enumerate().try_for_each(|(row, own)| {
-                positive(row, "frequency", own[0])?;
-                positive(row, "storage modulus", own[1])?;
-                positive(row, "loss modulus", own[2])
-            }),
-            Self::Strained(rows) => history(rows, ["strain", "stress"]),
-            Self::Stressed(rows) => history(rows, ["stress", "strain"]),
-        }
+        self.columns().iter().try_for_each(Column::check)
     }
 
     /// From the shortest to the longest time that it tells of \[s\].
     pub fn range(&self) -> (f64, f64) {
-        let times: Vec<f64> = match self {
-            Self::Relaxation(rows) | Self::Creep(rows) => rows.iter().map(|own| own.0).collect(),
-            Self::Storage(rows) | Self::Loss(rows) => {
-                rows.iter().map(|own| own.0.recip()).collect()
-            }
-            Self::Oscillation(rows) => rows.iter().map(|own| own[0].recip()).collect(),
-            Self::Strained(rows) | Self::Stressed(rows) => {
-                let steps = rows.windows(2).map(|pair| pair[1][0] - pair[0][0]);
-                let whole = rows[rows.len() - 1][0] - rows[0][0];
-                steps.chain([whole]).collect()
-            }
+        let wide = (f64::INFINITY, 0.0);
+        let Some(Column { kind, places, .. }) = self.columns().into_iter().next() else {
+            return wide;
         };
-        times
-            .into_iter()
-            .fold((f64::INFINITY, 0.0), |(low, high), own| (low.min(own), high.max(own)))
+        let times: Vec<f64> = if kind.has_history() {
+            let whole = places.first().zip(places.last()).map(|(first, last)| last - first);
+            places.windows(2).map(|pair| pair[1] - pair[0]).chain(whole).collect()
+        } else if kind.is_oscillation() {
+            places.iter().map(|own| own.recip()).collect()
+        } else {
+            places
+        };
+        times.into_iter().fold(wide, |(low, high), own| (low.min(own), high.max(own)))
     }
 }
 
-fn history(rows: &[[f64; 3]], names: [&'static str; 2]) -> Result<(), RecordFault> {
-    for (row, pair) in rows.windows(2).enumerate() {
-        let [before, time] = [pair[0][0], pair[1][0]];
-        if time <= before {
-            return Err(RecordFault::TimeRunsBack { row: row + 1, before, time });
+impl Column {
+    fn check(&self) -> Result<(), RecordFault> {
+        let names = self.kind.names();
+        if !self.kind.has_history() {
+            let rows = self.places.iter().zip(&self.values).enumerate();
+            let mut each = rows.flat_map(|(row, (place, value))| {
+                [(row, names[0], *place), (row, names[1], *value)]
+            });
+            let fault = each.find(|own| !(own.2 > 0.0 && own.2.is_finite()));
+            return fault.map_or(Ok(()), |(row, what, value)| {
+                Err(RecordFault::NotPositive { row, what, value })
+            });
         }
-    }
-    for (column, what) in [1, 2].into_iter().zip(names) {
-        if rows.iter().all(|own| own[column] == 0.0) {
-            return Err(RecordFault::Nothing { what });
+        if let Some(row) = (1..self.places.len()).find(|at| self.places[*at] <= self.places[at - 1])
+        {
+            let [before, time] = [self.places[row - 1], self.places[row]];
+            return Err(RecordFault::TimeRunsBack { row, before, time });
         }
+        let mut both = [&self.done, &self.values].into_iter().zip(names);
+        let nothing = both.find(|own| own.0.iter().all(|own| *own == 0.0));
+        nothing.map_or(Ok(()), |(_, what)| Err(RecordFault::Nothing { what }))
     }
-    Ok(())
 }

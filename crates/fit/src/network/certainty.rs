@@ -13,7 +13,7 @@ use crate::{
 /// Directions in which the sum of squares rises by less than this part of the largest rise are not determined.
 const FLAT: f64 = 1e-10;
 /// A number that has more than this part of such a direction is not determined.
-const TAKES_PART: f64 = 1e-3;
+pub(super) const TAKES_PART: f64 = 1e-3;
 /// A number is on its bound where it is nearer than this, in logarithms.
 const ON_BOUND: f64 = 1e-6;
 /// An interval whose ends differ by a larger factor determines nothing.

@@ -8,6 +8,8 @@
 //! step a blow falls. The deviation of what is even over the step, step/√12, holds that on the average alone: at its ends
 //! it comes down to 82 in place of 95 of 100, where the rest of the curve tells as much of the clock.
 
+use serde::Serialize;
+
 use super::{
     Curve, Kind,
     residuals::{Own, Task},
@@ -40,7 +42,7 @@ pub(super) struct Jump {
 }
 
 /// A jump of a curve behind its start.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Later {
     /// When on the clock of the record \[s\].
     pub time: f64,

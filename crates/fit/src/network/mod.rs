@@ -13,16 +13,16 @@ mod record;
 mod repeats;
 mod residuals;
 mod search;
-mod starts;
 mod told;
 mod watch;
 
 use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 pub use self::{
-    bands::{Band, Read},
+    bands::{Band, NoBand, Read},
     certainty::{Interval, Source},
     jump::Later,
     problem::{Curve, Kind, Known, Model, NetworkFault, NetworkSettings, Number, Profile, Test},
@@ -62,6 +62,11 @@ pub struct TestFit {
     pub noise: f64,
     /// The same before the impact alone; `None` where fewer than eight rows tell it.
     pub noise_at_rest: Option<f64>,
+    /// Whether what is left is more than noise: more than the noise that is known, or where none is, rows that follow each
+    /// other as noise does not.
+    pub is_structured: bool,
+    /// Whether that is so much of its peak that the model does not describe it.
+    pub is_missed: bool,
     /// What the rows before the impact read, where the fitted zero is none of them.
     pub other_zero: Option<OtherZero>,
     /// What it differs by from other records of the same test, where that was repeated.
@@ -81,7 +86,7 @@ pub struct TestFit {
 }
 
 /// Rows before the impact that contradict the zero that was fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct OtherZero {
     /// How many there are.
     pub rows: usize,
@@ -140,31 +145,25 @@ impl NetworkFit {
         self.convergence == Convergence::Reached
     }
 
-    /// Whether the tests determine a number, by its position: it is that of the lowest minimum, which lies between all
-    /// bounds, along what is determined, and noise tells that from any other by this number.
+    /// Whether the tests determine a number, by its position: nothing speaks [against](Self::reservation) the minimum,
+    /// and noise tells that from any other by this number.
     pub fn is_identified(&self, at: usize) -> bool {
-        let own = &self.numbers[at];
-        let [Some(low), Some(high)] = own.ends else { return false };
-        self.is_converged()
-            && own.is_identified()
-            && (self.undetermined.ncols() > 0 || !self.numbers.iter().any(|own| own.is_on_bound))
-            && self.others.iter().all(|other| (low..=high).contains(&other.values[at]))
+        self.reservation().is_none() && self.numbers[at].is_identified() && self.is_alone(at)
     }
 
     /// The factor between a product of powers of the numbers, by their exponents, and the ends of its 95 % interval;
-    /// `None` where the tests do not determine it, or the search has not converged.
+    /// `None` where the tests do not determine it, or nothing is [claimed](Self::reservation) of the numbers.
     pub fn interval_of(&self, exponents: &[f64]) -> Option<f64> {
         let gradient = DVector::from_column_slice(exponents);
         let variance = gradient.dot(&(&self.determined * &gradient));
         let null = &self.undetermined;
-        let is_known = self.is_converged();
-        let is_known = is_known
+        let is_known = self.reservation().is_none()
             && (null.ncols() == 0 || null.tr_mul(&gradient).amax() < KNOWN * gradient.amax());
         is_known.then(|| (self.quantile * variance.max(0.0).sqrt()).exp())
     }
 }
 
-/// A product takes no part in what is not determined where its exponents have less than this part of it.
+/// What changes by less than this, in logarithms, along a direction takes no part in it.
 const KNOWN: f64 = 1e-3;
 
 /// Fits numbers to tests.

@@ -1,12 +1,14 @@
 //! One test that was repeated: what tells its records apart is noise, whatever the model makes of them.
 
+use serde::Serialize;
+
 use super::{certainty::correlation, residuals::Task};
 
 /// Fewer rows that records have in common tell nothing.
 const FEWEST: usize = 8;
 
 /// What the records of a test that was repeated differ by.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scatter {
     /// Standard deviation of a row; behind a filter of a sample before it.
     pub deviation: f64,

@@ -5,9 +5,14 @@
 //! So the search goes from start to start on averages, over wide and then over narrow windows, until several ended at
 //! the same minimum, and only from there on the samples, with the clock between the two at which the curve jumps.
 
+use dashpot_numerics::Stream;
+use serde::Serialize;
+
 use super::{
     Band, NetworkFault, NetworkFit, NetworkSettings, Number, Other, Phase, Test,
-    certainty::certainty, residuals::Task, starts::spread, told::FEWEST,
+    certainty::certainty,
+    residuals::Task,
+    told::{FEWEST, is_structured},
 };
 use crate::optimum::{Optimum, Residuals as _, least_squares, sum};
 
@@ -28,20 +33,22 @@ const WINDOWS: [usize; 2] = [3, 12];
 /// So many starts have to end at the lowest minimum; more where more than this is left of a record in parts of its
 /// noise.
 const AGREE: [usize; 2] = [2, 3];
-const NOISY: f64 = 1.5;
 /// Sums of squares of rows in parts of their peaks that are no larger are rounding.
 const EXACT: f64 = 1e-18;
 /// So many starts for each number are looked at, of which the nearest come first.
 const SPREAD: usize = 8;
 
 /// Whether numbers are those of the lowest minimum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Convergence {
     /// A minimum at which several starts ended, or the only one that was asked for.
     Reached,
     /// A minimum at which no other start ended: there may be a lower one.
+    #[serde(rename = "one-start-alone")]
     Alone,
     /// The search ended before it was at a minimum.
+    #[serde(rename = "no-minimum")]
     Unsettled,
 }
 
@@ -62,7 +69,11 @@ pub(super) fn search(
     task.begin_phase(Phase::Certainty);
     let certainty = certainty(task, &best, scale, settings.profile);
     let left = task.left(&best.unknowns);
-    let outliers = scale.map_or(0, |far| left.iter().filter(|own| own.abs() > far).count());
+    let parts = task.parts().enumerate().flat_map(|(at, rows)| rows.map(move |row| (at, row)));
+    let is_far = |(at, row): &(usize, usize)| {
+        scale.is_some_and(|far| left[*row].abs() > far.max(task.solved_to(*at)))
+    };
+    let outliers = parts.filter(is_far).count();
     let noise = found[0].cost * (SAME + 4.0 * certainty.correlation / rows as f64);
     let is_low = |own: &Optimum| own.cost - found[0].cost <= noise + f64::MIN_POSITIVE;
     let distance = |own: &Optimum| {
@@ -75,8 +86,11 @@ pub(super) fn search(
     let is_same =
         |own: &&Optimum| if distance(own) > APART { !is_apart(own) && is_low(own) } else { true };
     let reached = found.iter().filter(is_same).count();
-    let others = found.iter().filter(|own| is_low(own) && is_apart(own));
-    let others = others.map(|own| Other {
+    let mut others: Vec<&Optimum> =
+        found.iter().filter(|own| is_low(own) && is_apart(own)).collect();
+    let numbers_of = |own: &Optimum| own.unknowns[..numbers.len()].to_vec();
+    others.dedup_by(|one, other| apart(&numbers_of(one), &numbers_of(other)) <= APART);
+    let others = others.into_iter().map(|own| Other {
         values: task.values(&own.unknowns),
         cost: own.cost / found[0].cost.max(f64::MIN_POSITIVE),
     });
@@ -106,7 +120,7 @@ pub(super) fn search(
     };
     for test in 0..tests.len() {
         let bands = fit.bands(&|values| task.samples(test, values, &best.unknowns));
-        let half = |own: Option<Band>| own.and_then(|own| own.half);
+        let half = |own: Option<Band>| own.and_then(|own| own.half.ok());
         fit.tests[test].band = bands.unwrap_or_default().into_iter().map(half).collect();
     }
     Ok(fit)
@@ -158,6 +172,25 @@ fn promising(numbers: &[Number], settings: NetworkSettings, task: &mut Task<'_>)
     task.average(None);
     all.sort_by(|one, other| one.0.total_cmp(&other.0));
     all.into_iter().map(|own| own.1).collect()
+}
+
+/// Values between the bounds, each of which has a part of every range that no other has (a Latin hypercube of
+/// logarithms).
+fn spread(numbers: &[Number], count: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut stream = Stream::new(seed);
+    let columns: Vec<Vec<f64>> = numbers
+        .iter()
+        .map(|own| {
+            let mut parts: Vec<usize> = (0..count).collect();
+            (1..count).rev().for_each(|at| parts.swap(at, stream.below(at + 1)));
+            let value = |part: usize| {
+                let share = (part as f64 + stream.share()) / count as f64;
+                own.low * (own.high / own.low).powf(share)
+            };
+            parts.into_iter().map(value).collect()
+        })
+        .collect();
+    (0..count).map(|at| columns.iter().map(|own| own[at]).collect()).collect()
 }
 
 /// The minimum that is found from a start on averages; on samples where there are none.
@@ -250,15 +283,15 @@ fn deviation(left: &[f64]) -> f64 {
 }
 
 impl Task<'_> {
-    /// Whether more is left of a test than its noise, where that is known or its rows before the impact tell it.
+    /// Whether more is left of a test than its noise, where that is known or its rows before the impact tell it, else than
+    /// white noise.
     fn is_noisy(&self, unknowns: &[f64]) -> bool {
         let left = self.left(unknowns);
         self.parts().zip(self.tests()).enumerate().any(|(at, (rows, own))| {
             let left = &left[rows];
             let resting = self.rows_at_rest(at, unknowns);
             let at_rest = || (resting >= FEWEST).then(|| deviation(&left[..resting]));
-            let noise = own.noise.map(|own| own / self.unit(at)).or_else(at_rest);
-            noise.is_some_and(|noise| deviation(left) > NOISY * noise)
+            is_structured(left, own.noise.map(|own| own / self.unit(at)).or_else(at_rest))
         })
     }
 }

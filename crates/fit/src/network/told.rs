@@ -15,6 +15,34 @@ const SMEARED: f64 = 2.0;
 const ZERO_OFF: f64 = 0.01;
 const ERRORS: f64 = 15.0;
 
+/// What is left of a record is more than noise beyond so many times that, where it is known; else where the statistic of
+/// Durbin and Watson is below this, which is 2 of noise that is white.
+const NOISY: f64 = 1.5;
+const FOLLOWING: f64 = 1.0;
+/// Fewer rows tell no such statistic.
+const FEWEST_FOLLOWING: usize = 20;
+/// More than this part of the peak is much of a record; less than this is no more than the error of solutions.
+const MISSED: f64 = 0.03;
+const EXACT: f64 = 1e-6;
+
+/// The sum of squares of differences of neighbouring rows over that of the rows.
+///
+/// Source: J. Durbin, G. S. Watson, Biometrika 37 (1950) 409–428.
+fn durbin_watson(left: &[f64]) -> f64 {
+    let steps: f64 = left.windows(2).map(|two| (two[1] - two[0]).powi(2)).sum();
+    let square: f64 = left.iter().map(|own| own * own).sum();
+    if left.len() < FEWEST_FOLLOWING || square <= 0.0 { 2.0 } else { steps / square }
+}
+
+/// Whether more is left in rows than noise of a standard deviation, or than any that is white.
+pub(super) fn is_structured(left: &[f64], noise: Option<f64>) -> bool {
+    let square: f64 = left.iter().map(|own| own * own).sum();
+    match noise {
+        Some(noise) => square > left.len() as f64 * (NOISY * noise).powi(2),
+        None => durbin_watson(left) < FOLLOWING,
+    }
+}
+
 /// A row belongs to the impact that differs from the first one by more than this part of the peak.
 const QUIET: f64 = 0.1;
 
@@ -40,6 +68,13 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Task<'_> {
+    /// What is left of a row of a test beyond the error of solutions, in its unit.
+    pub(super) fn solved_to(&self, test: usize) -> f64 {
+        let is_relative = self.tests()[test].kind == Kind::Modulus;
+        let peak = if is_relative { 1.0 } else { self.record(test).peak };
+        EXACT * peak / self.unit(test)
+    }
+
     /// The largest magnitude of a curve as it would be recorded, by a clock that is so late.
     fn peak_of(&self, test: usize, curve: &dyn Curve, shift: f64) -> f64 {
         let own = &self.tests()[test];
@@ -94,6 +129,13 @@ impl Task<'_> {
             let resting = &left[..self.rows_at_rest(at, unknowns)];
             let rests = self.rests_until(at, own.shift);
             let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
+            let scatter = self.scatter(at, unknowns);
+            let noise = unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt();
+            let rms = (square / residual.len() as f64).sqrt();
+            let measured_peak = largest(test.rows.iter().map(|row| row.1 - own.offset));
+            let part = if test.kind == Kind::Modulus { rms } else { rms / measured_peak.abs() };
+            let known = test.noise.or(scatter.map(|own| own.deviation)).or(at_rest);
+            let is_structured = part > EXACT && is_structured(left, known.map(|own| own / unit));
             Some(TestFit {
                 shift: own.shift,
                 offset: own.offset,
@@ -104,14 +146,16 @@ impl Task<'_> {
                     .jump
                     .map(|_| own.gain * (curve.value(0.0) - curve.value(-self.record(at).step))),
                 later_jump: self.later_jump(at, curve.as_ref(), own),
-                rms: (square / residual.len() as f64).sqrt(),
+                rms,
                 rows: left.len(),
                 mean_square: unit * unit * mean_square(left),
-                noise: unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt(),
+                noise,
                 noise_at_rest: at_rest,
                 other_zero: other_zero(test, &residual, own, rests),
-                scatter: self.scatter(at, unknowns),
-                measured_peak: largest(test.rows.iter().map(|row| row.1 - own.offset)),
+                is_structured,
+                is_missed: is_structured && part > MISSED && durbin_watson(left) < FOLLOWING,
+                scatter,
+                measured_peak,
                 model_peak: own.gain * self.peak_of(at, curve.as_ref(), own.shift),
                 residual,
                 band: Vec::new(),

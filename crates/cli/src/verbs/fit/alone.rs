@@ -2,31 +2,18 @@
 
 use dashpot_analysis::rheometer::{Answer, Drive};
 use dashpot_fit::{
-    linear::Record,
-    network::{Curve, Kind},
+    linear::{Column, Kind},
+    network::{Curve, Kind as TestKind},
 };
 use dashpot_network::{first_nonlinear, linear_model, parameters::Dimension};
-use dashpot_plot::{
-    FitQuantity,
-    figures::{CREEP, FitFigure, HISTORY, OSCILLATION, RELAXATION},
-};
 use dashpot_rheology::LinearModel;
 
 use super::{
     asked::{Asked, Measured},
+    figures::{DrawnAs, drawn_as},
     solver::{Poser, RTOL},
 };
 use crate::{error::CliError, output::list};
-
-/// What is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Looked {
-    Relaxation,
-    Creep,
-    Storage,
-    Loss,
-    Answer(Drive),
-}
 
 /// A test of a model alone.
 #[derive(Debug, Clone)]
@@ -34,7 +21,7 @@ pub(super) struct Alone {
     /// The element, model or material.
     name: String,
     is_material: bool,
-    looked: Looked,
+    kind: Kind,
     /// What was done, `(time, value)`, where it bends.
     history: Vec<(f64, f64)>,
 }
@@ -48,33 +35,15 @@ const STRAIGHT: f64 = 1e-9;
 impl Alone {
     /// The tests that a record is, each with its rows.
     pub(super) fn of(asked: &Asked, measured: &Measured) -> Result<Vec<WithRows>, CliError> {
-        measured.record.check().map_err(|fault| {
-            let line = fault.row().and_then(|row| measured.lines.get(row));
-            let line = line.map_or(String::new(), |line| format!("line {line}: "));
-            CliError::Fit { text: asked.text.clone(), reason: format!("{line}{fault}") }
-        })?;
-        let of = |looked, history| Self {
-            name: asked.target.clone(),
-            is_material: measured.is_material,
-            looked,
-            history,
+        let checked = measured.record.check();
+        checked.map_err(|fault| measured.fault(asked, fault.row(), &fault))?;
+        let (name, is_material) = (&asked.target, measured.is_material);
+        let test = |Column { kind, places, done, values }: Column| {
+            let history = bends(&list(places.iter().copied().zip(done)));
+            let rows = list(places.into_iter().zip(values));
+            (Self { name: name.clone(), is_material, kind, history }, rows)
         };
-        let column = |rows: &[[f64; 3]], at: usize| list(rows.iter().map(|own| (own[0], own[at])));
-        let driven = |rows: &[[f64; 3]], drive| {
-            vec![(of(Looked::Answer(drive), bends(&column(rows, 1))), column(rows, 2))]
-        };
-        Ok(match &measured.record {
-            Record::Relaxation(rows) => vec![(of(Looked::Relaxation, Vec::new()), rows.clone())],
-            Record::Creep(rows) => vec![(of(Looked::Creep, Vec::new()), rows.clone())],
-            Record::Storage(rows) => vec![(of(Looked::Storage, Vec::new()), rows.clone())],
-            Record::Loss(rows) => vec![(of(Looked::Loss, Vec::new()), rows.clone())],
-            Record::Oscillation(rows) => vec![
-                (of(Looked::Storage, Vec::new()), column(rows, 1)),
-                (of(Looked::Loss, Vec::new()), column(rows, 2)),
-            ],
-            Record::Strained(rows) => driven(rows, Drive::Deformation),
-            Record::Stressed(rows) => driven(rows, Drive::Force),
-        })
+        Ok(list(measured.record.columns().into_iter().map(test)))
     }
 
     pub(super) fn name(&self) -> &str {
@@ -87,58 +56,38 @@ impl Alone {
 
     /// What is looked at, in the words of what it is.
     pub(super) fn word(&self) -> &'static str {
-        match (self.looked, self.is_material) {
-            (Looked::Relaxation, _) => "relaxation",
-            (Looked::Creep, _) => "creep",
-            (Looked::Storage, _) => "storage",
-            (Looked::Loss, _) => "loss",
-            (Looked::Answer(Drive::Deformation), true) => "stress",
-            (Looked::Answer(Drive::Deformation), false) => "force",
-            (Looked::Answer(Drive::Force), true) => "strain",
-            (Looked::Answer(Drive::Force), false) => "deformation",
+        match (self.kind, self.is_material) {
+            (Kind::Relaxation, _) => "relaxation",
+            (Kind::Creep, _) => "creep",
+            (Kind::Storage, _) => "storage",
+            (Kind::Loss, _) => "loss",
+            (Kind::Stress, true) => "stress",
+            (Kind::Stress, false) => "force",
+            (Kind::Strain, true) => "strain",
+            (Kind::Strain, false) => "deformation",
         }
     }
 
-    pub(super) fn kind(&self) -> Kind {
-        if matches!(self.looked, Looked::Answer(_)) { Kind::Answer } else { Kind::Modulus }
+    pub(super) fn kind(&self) -> TestKind {
+        if self.kind.has_history() { TestKind::Answer } else { TestKind::Modulus }
     }
 
-    /// What it is drawn as, over what, and the SI unit of its values.
-    pub(super) fn drawn(&self) -> (&'static FitFigure, &'static str, FitQuantity, &'static str) {
-        let (figure, x) = match self.looked {
-            Looked::Relaxation => (&RELAXATION, "time [s]"),
-            Looked::Creep => (&CREEP, "time [s]"),
-            Looked::Storage | Looked::Loss => (&OSCILLATION, "frequency [Hz]"),
-            Looked::Answer(_) => (&HISTORY, "time [s]"),
-        };
-        let (quantity, unit) = match (self.looked, self.is_material) {
-            (Looked::Relaxation | Looked::Storage | Looked::Loss, true) => {
-                (FitQuantity::Modulus, "Pa")
-            }
-            (Looked::Relaxation | Looked::Storage | Looked::Loss, false) => {
-                (FitQuantity::Stiffness, "N/m")
-            }
-            (Looked::Creep, true) => (FitQuantity::Compliance, "1/Pa"),
-            (Looked::Creep, false) => (FitQuantity::PadCompliance, "m/N"),
-            (Looked::Answer(Drive::Deformation), true) => (FitQuantity::Stress, "Pa"),
-            (Looked::Answer(Drive::Deformation), false) => (FitQuantity::Force, "N"),
-            (Looked::Answer(Drive::Force), true) => (FitQuantity::Strain, "1"),
-            (Looked::Answer(Drive::Force), false) => (FitQuantity::Deformation, "m"),
-        };
-        (figure, x, quantity, unit)
+    /// What it is drawn as.
+    pub(super) fn drawn(&self) -> DrawnAs {
+        drawn_as(self.kind, self.is_material)
     }
 
     /// Whether its rows are over a frequency \[rad/s\].
     pub(super) fn is_oscillation(&self) -> bool {
-        matches!(self.looked, Looked::Storage | Looked::Loss)
+        self.kind.is_oscillation()
     }
 
     /// The dimension of what is left of it: moduli are compared in parts of them.
     pub(super) fn dimension(&self) -> Dimension {
-        match (self.looked, self.is_material) {
-            (Looked::Answer(Drive::Deformation), true) => Dimension::PRESSURE,
-            (Looked::Answer(Drive::Deformation), false) => Dimension::FORCE,
-            (Looked::Answer(Drive::Force), false) => Dimension::LENGTH,
+        match (self.kind, self.is_material) {
+            (Kind::Stress, true) => Dimension::PRESSURE,
+            (Kind::Stress, false) => Dimension::FORCE,
+            (Kind::Strain, false) => Dimension::LENGTH,
             _ => Dimension::NUMBER,
         }
     }
@@ -150,7 +99,12 @@ impl Alone {
         values: &[f64],
     ) -> Result<Box<dyn Curve>, String> {
         let model = poser.model(&self.name, values)?.model;
-        if let Looked::Answer(drive) = self.looked {
+        let drive = match self.kind {
+            Kind::Stress => Some(Drive::Deformation),
+            Kind::Strain => Some(Drive::Force),
+            _ => None,
+        };
+        if let Some(drive) = drive {
             let answer = Answer::to(&model, drive, &self.history, RTOL);
             return Ok(Box::new(Answered(answer.map_err(|fault| fault.to_string())?)));
         }
@@ -163,7 +117,7 @@ impl Alone {
                 self.word()
             ));
         }
-        Ok(Box::new(Modulus { model: linear_model(&model), looked: self.looked }))
+        Ok(Box::new(Modulus { model: linear_model(&model), kind: self.kind }))
     }
 }
 
@@ -197,16 +151,16 @@ impl Curve for Answered {
 
 struct Modulus {
     model: LinearModel,
-    looked: Looked,
+    kind: Kind,
 }
 
 impl Curve for Modulus {
     fn value(&self, at: f64) -> f64 {
-        match self.looked {
-            Looked::Relaxation => self.model.relaxation(at),
-            Looked::Creep => self.model.creep(at),
-            Looked::Loss => self.model.loss(at),
-            Looked::Storage | Looked::Answer(_) => self.model.storage(at),
+        match self.kind {
+            Kind::Relaxation => self.model.relaxation(at),
+            Kind::Creep => self.model.creep(at),
+            Kind::Loss => self.model.loss(at),
+            _ => self.model.storage(at),
         }
     }
 

@@ -77,7 +77,7 @@ fn asked(text: &str) -> Result<(&str, Vec<Form>), CliError> {
 }
 
 /// Fits each form, and tells of the one that the tests speak for.
-pub(super) fn chosen(plan: Plan<'_>, text: &str) -> Result<FittedScene, CliError> {
+pub(super) fn chosen<'p>(plan: Plan<'p>, text: &str) -> Result<FittedScene<'p>, CliError> {
     let (name, forms) = asked(text)?;
     let set = &plan.arguments.values.set;
     let named = read_named_model(&plan.scene.text, name, &plan.input.options(set));
@@ -247,12 +247,7 @@ impl Among {
                 held_out: own.and_then(|own| own.held_out),
                 information: self.information[at],
                 not_identified: self.open[at],
-                verdict: match self.choice.verdicts[at] {
-                    Verdict::Chosen => "chosen",
-                    Verdict::NotNeeded => "not-needed",
-                    Verdict::TooFar => "too-far",
-                    Verdict::NotFitted => "not-fitted",
-                },
+                verdict: self.choice.verdicts[at],
             }
         });
         object! {

@@ -1,5 +1,7 @@
 //! What is fitted to what: `--to "relax.csv:G=felt"`, and the records in the files.
 
+use std::fmt::Display;
+
 use dashpot_fit::linear::Record;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, Tunables};
@@ -75,6 +77,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
 
 /// A record of a file.
 pub(super) struct Measured {
+    pub(super) file: String,
     pub(super) record: Record,
     /// Whether it is that of a material, in Pa, or of a pad, in N and m.
     pub(super) is_material: bool,
@@ -86,7 +89,21 @@ pub(super) struct Measured {
     pub(super) lines: Vec<usize>,
 }
 
+impl Measured {
+    /// What is wrong with the record, in a row of it.
+    pub(super) fn fault(&self, asked: &Asked, row: Option<usize>, fault: &dyn Display) -> CliError {
+        let line = row.and_then(|row| self.lines.get(row));
+        let line = line.map_or(String::new(), |line| format!("line {line}: "));
+        asked.wrong(format!("{line}{fault}"))
+    }
+}
+
 impl Asked {
+    /// What is wrong with it.
+    pub(super) fn wrong(&self, reason: impl Into<String>) -> CliError {
+        CliError::Fit { text: self.text.clone(), reason: reason.into() }
+    }
+
     /// What is said of it that only fits of numbers take into account.
     pub(super) fn of_numbers(&self) -> Option<&str> {
         let given = [
@@ -108,9 +125,9 @@ impl Asked {
         let is_rate =
             |own: &(String, String)| own.0 == "rate" && tunables.anything("rate").is_err();
         if self.set.iter().any(is_rate) {
-            let reason =
-                "a rate is that at which a model alone is pressed, such as `pad`".to_owned();
-            return Err(CliError::Fit { text: self.text.clone(), reason });
+            return Err(
+                self.wrong("a rate is that at which a model alone is pressed, such as `pad`")
+            );
         }
         let known = self.set.iter().map(|own| tunables.anything(&own.0).map(|_| ()));
         let known: Result<(), _> = known.collect();
@@ -166,10 +183,15 @@ impl Asked {
             _ => return self.pressed(&file, &found),
         };
         let mut lines = table.lines();
-        if let Some(until) = until {
-            cut(&mut record, &mut lines, until);
+        if let Some(until) = until.filter(|_| record.has_times()) {
+            let times = record.columns().swap_remove(0).places;
+            let is_behind = |at: usize| times.get(at).is_some_and(|own| *own > until);
+            record = record.without(is_behind);
+            let mut at = 0..;
+            lines.retain(|_| !at.next().is_some_and(is_behind));
         }
-        Ok(Measured { record, is_material, what, note: file.notes(&table), lines })
+        let (note, file) = (file.notes(&table), self.file.clone());
+        Ok(Measured { file, record, is_material, what, note, lines })
     }
 
     /// A force over a deformation, or a stress over a strain, at the rate that is stated.
@@ -213,7 +235,8 @@ impl Asked {
         let (rows, lines) = rows.unzip();
         let what = format!("`{}` over `{}`", found.name(column), found.name(driven));
         let note = file.notes(found.table);
-        Ok(Measured { record: Record::Strained(rows), is_material, what, note, lines })
+        let (file, record) = (self.file.clone(), Record::Strained(rows));
+        Ok(Measured { file, record, is_material, what, note, lines })
     }
 
     /// The columns that are named; a symbol that no column has stands for the only one that measures it.
@@ -244,24 +267,6 @@ impl Asked {
         let found = self.columns.iter().map(|own| table.position(own));
         found.collect::<Result<_, _>>().map_err(|fault| file.fault(fault))
     }
-}
-
-/// Leaves out the rows behind a time.
-fn cut(record: &mut Record, lines: &mut Vec<usize>, until: f64) {
-    let mut is_kept = Vec::new();
-    match record {
-        Record::Relaxation(rows) | Record::Creep(rows) => rows.retain(|own| {
-            is_kept.push(own.0 <= until);
-            own.0 <= until
-        }),
-        Record::Strained(rows) | Record::Stressed(rows) => rows.retain(|own| {
-            is_kept.push(own[0] <= until);
-            own[0] <= until
-        }),
-        Record::Oscillation(_) | Record::Storage(_) | Record::Loss(_) => return,
-    }
-    let mut is_kept = is_kept.into_iter();
-    lines.retain(|_| is_kept.next().unwrap_or(false));
 }
 
 /// Columns of a file that answered.

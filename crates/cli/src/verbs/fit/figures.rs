@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use dashpot_fit::{
-    linear::{FittedCurve, Form, Kind},
+    linear::{FittedCurve, FittedRow, Kind},
     network::Kind as TestKind,
 };
 use dashpot_plot::{
     Chart, FitChannel, FitQuantity, FitRow, FitSeries, Of, ReportFigure,
-    figures::{CREEP, HISTORY, OSCILLATION, RELAXATION},
+    figures::{CREEP, FitFigure, HISTORY, OSCILLATION, RELAXATION},
 };
 
 use super::{Fitted, scene::FittedScene, target::Compared, words::rms};
@@ -81,9 +81,33 @@ impl Drawn {
     }
 }
 
+/// A figure, what its first column is over, what it shows, and the SI unit of that.
+pub(super) type DrawnAs = (&'static FitFigure, &'static str, FitQuantity, &'static str);
+
+/// What a column of a record of a material or a pad is drawn as.
+pub(super) fn drawn_as(kind: Kind, is_material: bool) -> DrawnAs {
+    let (figure, x) = match kind {
+        Kind::Relaxation => (&RELAXATION, "time [s]"),
+        Kind::Creep => (&CREEP, "time [s]"),
+        Kind::Storage | Kind::Loss => (&OSCILLATION, "frequency [Hz]"),
+        Kind::Stress | Kind::Strain => (&HISTORY, "time [s]"),
+    };
+    let (quantity, unit) = match (kind, is_material) {
+        (Kind::Relaxation | Kind::Storage | Kind::Loss, true) => (FitQuantity::Modulus, "Pa"),
+        (Kind::Relaxation | Kind::Storage | Kind::Loss, false) => (FitQuantity::Stiffness, "N/m"),
+        (Kind::Creep, true) => (FitQuantity::Compliance, "1/Pa"),
+        (Kind::Creep, false) => (FitQuantity::PadCompliance, "m/N"),
+        (Kind::Stress, true) => (FitQuantity::Stress, "Pa"),
+        (Kind::Stress, false) => (FitQuantity::Force, "N"),
+        (Kind::Strain, true) => (FitQuantity::Strain, "1"),
+        (Kind::Strain, false) => (FitQuantity::Deformation, "m"),
+    };
+    (figure, x, quantity, unit)
+}
+
 /// The records that a scene was fitted to.
-pub(super) fn of_scene(fitted: &FittedScene) -> Vec<Drawn> {
-    let each = fitted.curves.iter().zip(&fitted.fit.tests);
+pub(super) fn of_scene(fitted: &FittedScene<'_>) -> Vec<Drawn> {
+    let each = fitted.plan.curves.iter().zip(&fitted.fit.tests);
     list(each.map(|((asked, curve), test)| {
         let (figure, x, quantity, unit) = match &curve.output {
             Compared::Output(own) => (&HISTORY, "time [s]", quantity(own.of), curve.output.unit()),
@@ -125,38 +149,20 @@ fn quantity(of: Of) -> FitQuantity {
 }
 
 /// The records that a model was fitted to.
-pub(super) fn of_model(fitted: &Fitted) -> Vec<Drawn> {
+pub(super) fn of_model(fitted: &Fitted<'_>) -> Vec<Drawn> {
     let records = fitted.records.iter().zip(&fitted.fit.records).enumerate();
     list(records.filter_map(|(at, (told, own))| {
         let curves = fitted.fit.curves.iter().filter(|own| own.record == at);
         let curves: Vec<&FittedCurve> = list(curves);
         let kind = curves.first()?.kind;
-        let is_kelvin = fitted.fit.form == Form::Kelvin;
-        let (quantity, unit) = match (kind, fitted.is_material) {
-            (Kind::Relaxation | Kind::Storage | Kind::Loss, true) => (FitQuantity::Modulus, "Pa"),
-            (Kind::Relaxation | Kind::Storage | Kind::Loss, false) => {
-                (FitQuantity::Stiffness, "N/m")
-            }
-            (Kind::Creep, true) => (FitQuantity::Compliance, "1/Pa"),
-            (Kind::Creep, false) => (FitQuantity::PadCompliance, "m/N"),
-            (Kind::Answer, true) if is_kelvin => (FitQuantity::Strain, "1"),
-            (Kind::Answer, true) => (FitQuantity::Stress, "Pa"),
-            (Kind::Answer, false) if is_kelvin => (FitQuantity::Deformation, "m"),
-            (Kind::Answer, false) => (FitQuantity::Force, "N"),
-        };
-        let (figure, x) = match kind {
-            Kind::Relaxation => (&RELAXATION, "time [s]"),
-            Kind::Creep => (&CREEP, "time [s]"),
-            Kind::Storage | Kind::Loss => (&OSCILLATION, "frequency [Hz]"),
-            Kind::Answer => (&HISTORY, "time [s]"),
-        };
-        let is_oscillation = matches!(kind, Kind::Storage | Kind::Loss);
+        let (figure, x, quantity, unit) = drawn_as(kind, fitted.is_material());
+        let is_oscillation = kind.is_oscillation();
         let place = |at: f64| if is_oscillation { at / TAU } else { at };
         let branch =
             |own: &(f64, f64)| (if is_oscillation { (TAU * own.0).recip() } else { own.0 }, own.1);
         let floor = rms(own.floor, own, fitted.units().answer);
         let series = FitSeries {
-            title: format!("{}: {}, {}", fitted.name, told.what.replace('`', ""), told.file),
+            title: format!("{}: {}, {}", fitted.name(), told.what.replace('`', ""), told.file),
             note: format!("no network of springs and dashpots comes nearer than {floor}"),
             quantity,
             channels: list(curves.iter().map(|own| channel(own, place))),
@@ -170,9 +176,9 @@ fn channel(own: &FittedCurve, place: impl Fn(f64) -> f64) -> FitChannel {
     let name = match own.kind {
         Kind::Storage => "storage",
         Kind::Loss => "loss",
-        Kind::Relaxation | Kind::Creep | Kind::Answer => "",
+        _ => "",
     };
-    let row = |row: &dashpot_fit::linear::FittedRow| FitRow {
+    let row = |row: &FittedRow| FitRow {
         x: place(row.at),
         measured: row.measured,
         model: row.model,

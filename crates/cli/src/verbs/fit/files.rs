@@ -56,20 +56,20 @@ impl FitArguments {
 /// Adds all files of a scene that was fitted but the result.
 pub(super) fn write_fitted_scene(
     files: &mut Staged<'_>,
-    fitted: &FittedScene,
+    fitted: &FittedScene<'_>,
 ) -> Result<(), CliError> {
     let text = fitted.scene_text(&fitted.comments());
     files.add_scene(SCENE, &fitted.written(&text))?;
     let figures = figures::write(files, &of_scene(fitted))?;
-    let notes = said::notes(&fitted.scene).into_iter().chain(fitted.notes());
+    let notes = said::notes(&fitted.plan.scene).into_iter().chain(fitted.notes());
     let known = fitted.warnings();
-    let details = [settings(&fitted.asked, origin::rows(&fitted.scene))];
+    let details = [settings(&fitted.plan.arguments.in_words(), origin::rows(&fitted.plan.scene))];
     let drawn = fitted.fitted.as_ref();
     files.add(
         PAGE,
         Report {
-            title: title(&fitted.scene).to_owned(),
-            warnings: list(said::warnings(&fitted.scene, &known).into_iter().chain(known)),
+            title: title(&fitted.plan.scene).to_owned(),
+            warnings: list(said::warnings(&fitted.plan.scene, &known).into_iter().chain(known)),
             verdict: fitted.verdict_lines(),
             tables: with_rows(fitted.tables().into_iter().chain([Table::list("Remarks", notes)])),
             network: drawn.and_then(|own| sketch::of_network(&own.network, own.run.duration)),
@@ -82,7 +82,7 @@ pub(super) fn write_fitted_scene(
 }
 
 /// Adds all files of a model that was fitted but the result.
-pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted) -> Result<(), CliError> {
+pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted<'_>) -> Result<(), CliError> {
     files.add_scene(SCENE, &fitted.written())?;
     let figures: Vec<ReportFigure> = figures::write(files, &of_model(fitted))?;
     let tables = [words::records(fitted), words::determined(fitted), words::branches(fitted)];
@@ -91,13 +91,13 @@ pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted) -> Result<(),
     files.add(
         PAGE,
         Report {
-            title: fitted.name.clone(),
+            title: fitted.name().to_owned(),
             warnings: words::warnings(fitted),
             verdict: words::verdict(fitted),
             tables: with_rows(tables.into_iter().chain([notes])),
             network: None,
             figures,
-            details: vec![settings(&fitted.asked, vec![own])],
+            details: vec![settings(&fitted.arguments.in_words(), vec![own])],
             scene_text: fitted.text.clone(),
         }
         .html(),

@@ -10,6 +10,7 @@ mod scattered;
 mod scene;
 mod scene_object;
 mod scene_words;
+mod seen;
 mod shown;
 mod solver;
 mod target;
@@ -188,7 +189,7 @@ impl FitArguments {
         let mut behind = behind.filter_map(|own| Some((own, own.of_numbers()?)));
         behind.next().map_or(Ok(()), |(own, word)| {
             let reason = format!("`{word}` behind its comma: {}", of_numbers.1);
-            Err(CliError::Fit { text: own.text.clone(), reason })
+            Err(own.wrong(reason))
         })
     }
 
@@ -229,39 +230,32 @@ fn is_on(own: Option<Switch>) -> bool {
     own != Some(Switch::Off)
 }
 
-/// What is told of a record.
-struct Told {
-    file: String,
-    what: String,
-    /// The line of each row, from 1.
-    lines: Vec<usize>,
-}
-
 /// A model that was fitted.
-struct Fitted {
-    name: String,
-    is_material: bool,
-    /// Whether it is known to be a solid.
-    is_solid: bool,
-    error: f64,
-    records: Vec<Told>,
+struct Fitted<'f> {
+    arguments: &'f FitArguments,
+    records: Vec<Measured>,
     fit: LinearFit,
     /// The scene or model with what was found.
     text: String,
-    /// The file of the scene, if there is one, and what is set of it.
-    file: String,
-    set: Vec<(String, String)>,
-    /// What the command line asks for, in words.
-    asked: Vec<(&'static str, String)>,
+    /// The file of the scene, if there is one.
+    file: &'f str,
 }
 
-impl Fitted {
+impl Fitted<'_> {
+    fn name(&self) -> &str {
+        &self.arguments.to[0].target
+    }
+
+    fn is_material(&self) -> bool {
+        self.records[0].is_material
+    }
+
     fn units(&self) -> Units {
-        Units::of(self.fit.form, self.is_material)
+        Units::of(self.fit.form, self.is_material())
     }
 
     fn written(&self) -> SceneText<'_> {
-        SceneText { text: &self.text, file: &self.file, set: &self.set }
+        SceneText { text: &self.text, file: self.file, set: &self.arguments.values.set }
     }
 }
 
@@ -293,13 +287,12 @@ fn fit_model(
     let (folder, file) = arguments.out.split(all_names(arguments.to.len()))?;
     let name = &arguments.to[0].target;
     if let Some(other) = arguments.to.iter().find(|own| own.target != *name) {
-        let reason = format!("`{name}` is fitted already: one model at a time");
-        return Err(CliError::Fit { text: other.text.clone(), reason });
+        return Err(other.wrong(format!("`{name}` is fitted already: one model at a time")));
     }
     if let Some(own) = arguments.to.iter().find(|own| own.target.contains('.')) {
         let reason =
             "an output of a scene wants numbers that are fitted: `--vary \"K=10..1000 kN/m\"`";
-        return Err(CliError::Fit { text: own.text.clone(), reason: reason.to_owned() });
+        return Err(own.wrong(reason));
     }
     let measured = arguments.to.iter().map(|own| own.measured(arguments.until));
     let measured = measured.collect::<Result<Vec<_>, _>>()?;
@@ -325,26 +318,10 @@ fn fit_model(
     };
     let fit =
         fit_spectrum(&records, settings).map_err(|fault| wrong(fault, &arguments.to, &measured))?;
-    let told = arguments.to.iter().zip(measured);
-    let told = told.map(|(asked, own)| Told {
-        file: asked.file.clone(),
-        what: own.what,
-        lines: own.lines,
-    });
-    let mut fitted = Fitted {
-        name: name.clone(),
-        is_material,
-        is_solid: arguments.solid,
-        error: arguments.error(),
-        records: told.collect(),
-        fit,
-        text: String::new(),
-        file: input.map_or(String::new(), |own| own.file.clone()),
-        set: arguments.values.set.clone(),
-        asked: arguments.in_words(),
-    };
-    let model = written::model(&fitted.fit)
-        .ok_or_else(|| CliError::OutOfRange { word: fitted.name.clone() })?;
+    let (beside, text) = (input.map_or("", |own| &own.file), String::new());
+    let mut fitted = Fitted { arguments, records: measured, fit, text, file: beside };
+    let model =
+        written::model(&fitted.fit).ok_or_else(|| CliError::OutOfRange { word: name.clone() })?;
     let scene = input.map(|own| (own, &arguments.values.set[..]));
     fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, folder, terminal)?;
@@ -362,19 +339,17 @@ fn wrong(fault: LinearFault, asked: &[Asked], measured: &[Measured]) -> CliError
         LinearFault::MixedForms { record } => (record, None),
         _ => (0, None),
     };
-    let line = row.and_then(|row| measured[record].lines.get(row));
-    let line = line.map_or(String::new(), |line| format!("line {line}: "));
-    CliError::Fit { text: asked[record].text.clone(), reason: format!("{line}{fault}") }
+    measured[record].fault(&asked[record], row, &fault)
 }
 
-impl Study for Fitted {
+impl Study for Fitted<'_> {
     fn warnings(&self) -> Vec<String> {
         warnings(self)
     }
 
     fn text(&self, text: &mut Text) {
         text.warnings(&warnings(self));
-        text.title(&self.name);
+        text.title(self.name());
         text.table(&records(self));
         text.table(&determined(self));
         text.table(&branches(self));
@@ -392,7 +367,7 @@ impl Study for Fitted {
 
     fn object(&self) -> impl Serialize {
         let unit = self.units().strength;
-        let parameters = ends(&self.fit, self.is_material).into_iter().map(|(key, _, range)| {
+        let parameters = ends(&self.fit, self.is_material()).into_iter().map(|(key, _, range)| {
             let (value, low, high) = (range.value, range.low, range.high);
             (key, object! { value, low, high, unit, identified: range.is_identified() })
         });
@@ -409,19 +384,14 @@ impl Study for Fitted {
                     line: told.lines.get(own.row),
                     off: own.off,
                 })),
-                contradiction: own.contradiction.map(|own| object! {
-                    storage_alone: own.storage_alone,
-                    loss_alone: own.loss_alone,
-                    loss_from_storage: own.loss_from_storage,
-                    storage_from_loss: own.storage_from_loss,
-                }),
+                contradiction: own.contradiction,
             }
         });
         let branches = self.fit.spectrum.branches.iter();
         object! {
             dashpot: VERSION,
-            model: &self.name,
-            material: self.is_material,
+            model: self.name(),
+            material: self.is_material(),
             parameters: parameters.collect::<Pairs<_, _>>(),
             tests: list(tests),
             converged: self.fit.is_kept,

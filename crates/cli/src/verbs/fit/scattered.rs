@@ -1,6 +1,6 @@
 //! The uncertainty of fitted numbers as scatter of the fitted scene: what is known of them together.
 
-use super::scene::FittedScene;
+use super::{scene::FittedScene, scene_words::no_band};
 use crate::output::list;
 
 /// Digits of shares: what is known of a product is small beside what is not known of its factors.
@@ -8,13 +8,14 @@ const DIGITS: usize = 9;
 /// Causes that add less than this part of the largest share tell nothing but rounding.
 const ROUNDING: f64 = 1e-9;
 
-impl FittedScene {
+impl FittedScene<'_> {
     /// The section that states it, or why there is none.
     pub(super) fn scatter(&self) -> Result<String, &'static str> {
-        if !self.fit.is_converged() {
-            return Err("the search has not converged");
+        if let Some(why) = self.fit.reservation() {
+            return Err(no_band(why));
         }
-        let paths = self.numbers.iter().map(|own| own.at.map(|at| &self.tunables.all()[at].path));
+        let paths =
+            self.numbers.iter().map(|own| own.at.map(|at| &self.plan.tunables.all()[at].path));
         let Some(paths) = paths.collect::<Option<Vec<_>>>() else {
             return Err(
                 "the constants of a form that was put in have no place in the text yet: fit the scene that \

@@ -43,13 +43,10 @@ pub(super) struct Measured {
 }
 
 /// A scene that was fitted.
-pub(super) struct FittedScene {
-    pub(super) scene: Scene,
+pub(super) struct FittedScene<'p> {
+    pub(super) plan: Plan<'p>,
+    /// The numbers, with the constants of a form.
     pub(super) numbers: Vec<Varied>,
-    pub(super) curves: Vec<(Asked, Target)>,
-    /// For each test its numbers that were measured besides.
-    pub(super) known: Vec<Vec<Varied>>,
-    pub(super) tests: Vec<Test>,
     pub(super) shown: Vec<Shown>,
     pub(super) measures: Vec<Measured>,
     pub(super) fit: NetworkFit,
@@ -59,13 +56,8 @@ pub(super) struct FittedScene {
     /// Among which forms of a model this one was chosen.
     pub(super) among: Option<Among>,
     replaced: Option<Replaced>,
-    /// Whether the scene that is written has the scatter of the fit.
-    pub(super) has_scatter: bool,
     /// The network with what was found, where it can be solved.
     pub(super) fitted: Option<Posed>,
-    /// What the command line asks for, in words.
-    pub(super) asked: Vec<(&'static str, String)>,
-    pub(super) tunables: Tunables,
     /// What the command line sets.
     set: Vec<(String, String)>,
 }
@@ -79,7 +71,8 @@ pub(super) struct Plan<'p> {
     pub(super) tunables: Tunables,
     numbers: Vec<Varied>,
     pub(super) curves: Vec<(Asked, Target)>,
-    known: Vec<Vec<Varied>>,
+    /// For each test its numbers that were measured besides.
+    pub(super) known: Vec<Vec<Varied>>,
     pub(super) tests: Vec<Test>,
     evaluated: Evaluated,
 }
@@ -92,11 +85,11 @@ struct Evaluated {
 }
 
 /// Fits numbers of a scene, or the constants of the form of a model that the tests speak for.
-pub(super) fn fitted(
-    arguments: &FitArguments,
-    input: &Input,
+pub(super) fn fitted<'p>(
+    arguments: &'p FitArguments,
+    input: &'p Input,
     terminal: Terminal,
-) -> Result<FittedScene, CliError> {
+) -> Result<FittedScene<'p>, CliError> {
     let plan = Plan::read(arguments, input, terminal)?;
     if let Some(asked) = &arguments.among {
         return chosen(plan, asked);
@@ -149,7 +142,7 @@ impl<'p> Plan<'p> {
             let is_more = curves.iter().filter(|own| said(own) == said(&curves[at])).count() > 1;
             test.repeated = first.filter(|_| is_more);
         }
-        let known = own.into_iter().map(|own| list(own.numbers.into_iter().map(|own| own.0)));
+        let known = own.into_iter().map(|own| list(own.into_iter().map(|own| own.0)));
         let known = list(known);
         print_notes(&scene.notes);
         let evaluated = Evaluated::default();
@@ -204,8 +197,7 @@ impl<'p> Plan<'p> {
             let own = begun.iter().map(|own| own.start);
             let own: Vec<f64> = list(own.chain(self.known[at].iter().map(|own| own.start)));
             check_alone(asked, &target.output, &posers[at], &own)?;
-            let wrong = |reason| CliError::Fit { text: asked.text.clone(), reason };
-            posers[at].posed(&own).map_err(wrong)?;
+            posers[at].posed(&own).map_err(|reason| asked.wrong(reason))?;
         }
         let settings = NetworkSettings {
             starts: self.arguments.starts(),
@@ -225,7 +217,7 @@ impl<'p> Plan<'p> {
         replaced: Option<Replaced>,
         mut fit: NetworkFit,
         among: Option<Among>,
-    ) -> Result<FittedScene, CliError> {
+    ) -> Result<FittedScene<'p>, CliError> {
         let constants = replaced.iter().flat_map(|own| &own.constants);
         let numbers: Vec<Varied> = list(self.numbers.iter().chain(constants).cloned());
         let posers = self.posers(replaced.as_ref());
@@ -249,19 +241,13 @@ impl<'p> Plan<'p> {
         let measures = if fit.is_converged() { measures(&whole, &fit) } else { Vec::new() };
         let found: Vec<f64> = list(fit.numbers.iter().map(|own| own.value));
         let fitted = whole.posed(&found).ok();
-        let asked = self.arguments.in_words();
-        let has_scatter = self.arguments.scatter;
         let set = unvaried(&self.arguments.values.set, &self.numbers, &self.tunables);
+        let Evaluated { count, misses } = &self.evaluated;
+        let (missing, unevaluated) = (misses.all(), misses.told(count.load(Ordering::Relaxed)));
         drop(posers);
-        let Self { scene, tunables, curves, known, tests, evaluated, .. } = self;
-        let Evaluated { count, misses } = evaluated;
-        let (missing, unevaluated) = (misses.all(), misses.told(count.into_inner()));
         Ok(FittedScene {
-            scene,
+            plan: self,
             numbers,
-            curves,
-            known,
-            tests,
             shown,
             measures,
             fit,
@@ -269,10 +255,7 @@ impl<'p> Plan<'p> {
             unevaluated,
             among,
             replaced,
-            has_scatter,
             fitted,
-            asked,
-            tunables,
             set,
         })
     }
@@ -353,14 +336,9 @@ fn measures(poser: &Poser<'_>, fit: &NetworkFit) -> Vec<Measured> {
     each.collect()
 }
 
-/// Numbers of a test that were measured besides.
-struct OwnNumbers {
-    numbers: Vec<(Varied, Known)>,
-}
-
 /// What is set for a test alone with a standard deviation.
-fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliError> {
-    let wrong = |reason: String| CliError::Fit { text: asked.text.clone(), reason };
+fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<Vec<(Varied, Known)>, CliError> {
+    let wrong = |reason: String| asked.wrong(reason);
     let mut numbers = Vec::new();
     for (name, value) in asked.scattered() {
         let at = tunables.find(name);
@@ -379,7 +357,7 @@ fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<OwnNumbers, CliErro
         let number = Varied::of(tunables, (name, at), around(&known), ("", own.dimension));
         numbers.push((Varied { start: known.mean, ..number }, known));
     }
-    Ok(OwnNumbers { numbers })
+    Ok(numbers)
 }
 
 /// A test: its rows, and what the command line tells of how they were recorded.
@@ -387,18 +365,16 @@ fn test(
     arguments: &FitArguments,
     asked: &Asked,
     curve: &Target,
-    own: &OwnNumbers,
+    own: &[(Varied, Known)],
 ) -> Result<Test, CliError> {
     let noise = asked.noise.as_ref().or(arguments.noise.as_ref());
     let noise = noise.map(|text| setting("--noise", text, curve.output.dimension())).transpose()?;
     if noise.is_some_and(|own| own.is_nan() || own <= 0.0) {
-        let reason = "noise is a standard deviation above zero".to_owned();
-        return Err(CliError::Fit { text: asked.text.clone(), reason });
+        return Err(asked.wrong("noise is a standard deviation above zero"));
     }
     let kind = curve.output.kind();
     if asked.cfc.is_some() && kind != Kind::Blow {
-        let reason = "a class is that of a record of a run, not of a model alone".to_owned();
-        return Err(CliError::Fit { text: asked.text.clone(), reason });
+        return Err(asked.wrong("a class is that of a record of a run, not of a model alone"));
     }
     let cfc = asked.cfc.or(arguments.cfc).filter(|_| kind == Kind::Blow);
     // A motion at a stated rate has no clock.
@@ -412,19 +388,16 @@ fn test(
         filter: cfc.map(|own| (own, arguments.padding())),
         noise,
         repeated: None,
-        known: list(own.numbers.iter().map(|own| own.1)),
+        known: list(own.iter().map(|own| own.1)),
     })
 }
 
 fn wrong(fault: &NetworkFault, curves: &[(Asked, Target)]) -> CliError {
-    let (text, reason) = match fault {
-        NetworkFault::Nothing { test } => {
-            (&curves[*test].0.text, "its values are zero throughout".to_owned())
-        }
-        NetworkFault::Filter { test, fault } => (&curves[*test].0.text, fault.to_string()),
-        _ => (&curves[0].0.text, fault.to_string()),
-    };
-    CliError::Fit { text: text.clone(), reason }
+    match fault {
+        NetworkFault::Nothing { test } => curves[*test].0.wrong("its values are zero throughout"),
+        NetworkFault::Filter { test, fault } => curves[*test].0.wrong(fault.to_string()),
+        _ => curves[0].0.wrong(fault.to_string()),
+    }
 }
 
 /// The numbers that the command line names, with their bounds.
@@ -455,10 +428,14 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
     varied.collect()
 }
 
-impl FittedScene {
+impl FittedScene<'_> {
     /// A text of the scene as it is written.
     pub(super) fn written<'t>(&'t self, text: &'t str) -> SceneText<'t> {
-        SceneText { text, file: self.scene.file.as_deref().unwrap_or_default(), set: &self.set }
+        SceneText {
+            text,
+            file: self.plan.scene.file.as_deref().unwrap_or_default(),
+            set: &self.set,
+        }
     }
 
     /// The text of the scene with the numbers that were found, below lines on where they are from.
@@ -469,14 +446,14 @@ impl FittedScene {
             let number: f64 = rounded(found.value / own.one);
             Some((own.at?, format!("{number} {}", own.unit).trim_end().to_owned()))
         });
-        let text = self.tunables.text_with(&list(texts));
+        let text = self.plan.tunables.text_with(&list(texts));
         let constants = each().filter(|own| own.0.at.is_none());
         let constants: Vec<f64> = list(constants.map(|own| rounded(own.1.value)));
         let comment = "in place of what was fitted worse or with more numbers";
         let replaced = self.replaced.as_ref().map(|own| own.text(&text, &constants, comment));
         let text = replaced.and_then(Result::ok).unwrap_or(text);
         let lines: Vec<String> = list(comments.iter().map(|own| format!("# {own}\n")));
-        let scatter = self.has_scatter.then(|| self.scatter().ok()).flatten();
+        let scatter = self.plan.arguments.scatter.then(|| self.scatter().ok()).flatten();
         lines.concat() + &text + &scatter.unwrap_or_default()
     }
 }

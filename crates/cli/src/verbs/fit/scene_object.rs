@@ -1,6 +1,6 @@
 //! A fit of numbers of a scene as an object of JSON.
 
-use dashpot_fit::network::{Convergence, Kind, Source};
+use dashpot_fit::network::{Kind, Source};
 use serde::Serialize;
 
 use super::{among::Among, scene::FittedScene};
@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// All that is known of a fit.
-pub(super) fn object_of(own: &FittedScene) -> impl Serialize + '_ {
+pub(super) fn object_of<'a>(own: &'a FittedScene<'a>) -> impl Serialize + 'a {
     let shown = own.shown.iter().map(|own| {
         let constants = own.constants.iter().map(|(name, value, ends, unit)| {
             let [low, high] = ends.map_or([None; 2], |ends| ends.map(Some));
@@ -21,37 +21,34 @@ pub(super) fn object_of(own: &FittedScene) -> impl Serialize + '_ {
     let others = own.fit.others.iter();
     let measures = own.measures.iter().map(|own| {
         let (value, unit, curved) = (own.band.value, own.unit, own.band.is_bent);
-        let [low, high] = [-1.0, 1.0].map(|sign| own.band.half.map(|half| value + sign * half));
-        (own.key.as_str(), object! { value, low, high, unit, curved })
+        let half = own.band.half;
+        let [low, high] = [-1.0, 1.0].map(|sign| half.ok().map(|half| value + sign * half));
+        (own.key.as_str(), object! { value, low, high, unit, curved, no_band: half.err() })
     });
     object! {
         dashpot: VERSION,
-        title: &own.scene.title,
-        file: &own.scene.file,
+        title: &own.plan.scene.title,
+        file: &own.plan.scene.file,
         unevaluated: &own.unevaluated,
         parameters: (0..own.numbers.len()).map(|at| parameter(own, at)).collect::<Pairs<_, _>>(),
         determined: list(shown),
         measures: measures.collect::<Pairs<_, _>>(),
-        tests: list((0..own.tests.len()).map(|at| test(own, at))),
+        tests: list((0..own.plan.tests.len()).map(|at| test(own, at))),
         converged: own.fit.is_converged(),
-        convergence: match own.fit.convergence {
-            Convergence::Reached => "reached",
-            Convergence::Alone => "one-start-alone",
-            Convergence::Unsettled => "no-minimum",
-        },
+        convergence: own.fit.convergence,
         stopped: own.fit.is_stopped,
         floor: None::<f64>,
         among: own.among.as_ref().map(Among::object),
         starts: own.fit.reached,
         others: list(others.map(|own| object! { values: &own.values, cost: own.cost })),
         outliers: own.fit.outliers,
-        scene_warnings: said::warning_objects(&own.scene),
-        scene_notes: said::note_objects(&own.scene),
+        scene_warnings: said::warning_objects(&own.plan.scene),
+        scene_notes: said::note_objects(&own.plan.scene),
     }
 }
 
 /// A number that was fitted, by its name.
-fn parameter(own: &FittedScene, at: usize) -> (&str, impl Serialize + '_) {
+fn parameter<'a>(own: &'a FittedScene<'a>, at: usize) -> (&'a str, impl Serialize + 'a) {
     let (number, found) = (&own.numbers[at], &own.fit.numbers[at]);
     let [low, high] = found.ends;
     let identified = own.verdict(at) == "identified";
@@ -62,9 +59,9 @@ fn parameter(own: &FittedScene, at: usize) -> (&str, impl Serialize + '_) {
 }
 
 /// A test, with its rows.
-fn test(all: &FittedScene, at: usize) -> impl Serialize + '_ {
-    let ((asked, curve), own) = (&all.curves[at], &all.fit.tests[at]);
-    let known = all.known[at].iter().zip(&own.known);
+fn test<'a>(all: &'a FittedScene<'a>, at: usize) -> impl Serialize + 'a {
+    let ((asked, curve), own) = (&all.plan.curves[at], &all.fit.tests[at]);
+    let known = all.plan.known[at].iter().zip(&own.known);
     let known = known.map(|(own, value)| (own.name.as_str(), object! { value, unit: &own.si }));
     let is_modulus = curve.output.kind() == Kind::Modulus;
     let model = curve.rows.iter().zip(&own.residual);
@@ -81,16 +78,14 @@ fn test(all: &FittedScene, at: usize) -> impl Serialize + '_ {
         held_out: own.held_out.map(|own| own.peak),
         held_out_rms: own.held_out.map(|own| own.rms),
         jump: own.jump,
-        later_jump: own.later_jump.map(|own| object! { time: own.time, height: own.height }),
-        cfc: all.tests[at].filter.map(|own| own.0.class()),
+        later_jump: own.later_jump,
+        cfc: all.plan.tests[at].filter.map(|own| own.0.class()),
         noise: own.noise,
         noise_at_rest: own.noise_at_rest,
-        other_zero: own.other_zero.map(|own| object! { rows: own.rows, median: own.median }),
-        scatter: own.scatter.map(|own| object! {
-            deviation: own.deviation,
-            correlation: own.correlation,
-            records: own.records,
-        }),
+        structured: own.is_structured,
+        missed: own.is_missed,
+        other_zero: own.other_zero,
+        scatter: own.scatter,
         gain: own.gain,
         known: known.collect::<Pairs<_, _>>(),
         curve: object! {

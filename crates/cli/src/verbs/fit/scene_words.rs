@@ -1,12 +1,12 @@
 //! What a fit of numbers of a scene says.
 
 use dashpot_analysis::Missing;
-use dashpot_fit::network::{Convergence, Interval, Kind, NetworkFit, Source, Test, TestFit};
+use dashpot_fit::network::{Convergence, Interval, Kind, NetworkFit, NoBand, Source};
 use dashpot_plot::Table;
 use serde::Serialize;
 
 use super::{
-    among::Among, files::write_fitted_scene, scene::FittedScene, shown::Shown, target::Compared,
+    among::Among, files::write_fitted_scene, scene::FittedScene, seen::Seen, shown::Shown,
 };
 use crate::{
     error::CliError,
@@ -16,18 +16,15 @@ use crate::{
     output::{Study, Text, list},
     unevaluated,
     varied::Varied,
+    verbs::run::measure_text,
 };
 
 /// Digits of fitted values.
 const DIGITS: usize = 4;
 /// Digits of times and residuals.
 const FEW: usize = 3;
-/// A peak that is missed by more than this part is told first.
-const MISSED: f64 = 0.05;
-/// A record that ends behind the run by more than this part of it is told.
-const BEYOND: f64 = 0.01;
-/// What is left of a record in parts of its noise, beyond which it is not noise alone.
-const NOISIER: f64 = 1.5;
+/// Runs are solved to this part of their measures at least: a band that is narrower tells of rounding.
+const SOLVED: f64 = 1e-6;
 /// What is said of a search that an interrupt ended.
 const STOPPED: &str = "not finished: the search was interrupted. These numbers are the best that it had met, and no \
                        minimum; there are no intervals, and nothing was left out";
@@ -46,7 +43,7 @@ fn ends(own: &Varied, found: &Interval) -> [String; 2] {
     found.ends.map(|end| end.map_or_else(|| "no bound".to_owned(), |end| value(own, end)))
 }
 
-impl FittedScene {
+impl FittedScene<'_> {
     pub(super) fn verdict(&self, at: usize) -> &'static str {
         let own = &self.fit.numbers[at];
         match own {
@@ -83,6 +80,13 @@ impl FittedScene {
         self.shown.iter().any(|own| own.numbers.contains(&self.numbers[at].name))
     }
 
+    /// The tests with what was found of them.
+    fn each(&self) -> impl Iterator<Item = Seen<'_>> {
+        let tests = self.plan.tests.iter().zip(&self.fit.tests);
+        let each = self.plan.curves.iter().zip(tests);
+        each.map(|((asked, curve), (test, own))| Seen { asked, curve, test, own })
+    }
+
     fn numbers_table(&self) -> Table {
         let rows = self.numbers.iter().zip(&self.fit.numbers).enumerate();
         let rows = rows.map(|(at, (own, found))| {
@@ -94,20 +98,18 @@ impl FittedScene {
     }
 
     fn tests_table(&self) -> Table {
-        let rows = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
-            let of = |value: f64| curve.output.told(value, FEW);
-            let peak = own.model_peak / own.measured_peak - 1.0;
-            let held_out = own.held_out.map_or_else(String::new, |own| percent_signed(own.peak));
+        let rows = self.each().map(|test| {
+            let Seen { asked, curve, own, .. } = test;
             let has_clock = curve.output.kind() != Kind::Modulus;
             let if_any = |word: String| if has_clock { word } else { String::new() };
             vec![
                 asked.file.clone(),
                 curve.output.key(),
-                of(own.rms),
-                percent_signed(peak),
-                held_out,
+                test.of(own.rms),
+                percent_signed(own.model_peak / own.measured_peak - 1.0),
+                own.held_out.map_or_else(String::new, |own| percent_signed(own.peak)),
                 if_any(quantity(own.shift, "s", FEW)),
-                if_any(of(own.offset)),
+                if_any(test.of(own.offset)),
             ]
         });
         let header =
@@ -117,29 +119,25 @@ impl FittedScene {
 
     /// What tests have to themselves besides, and what noise there is.
     fn own_table(&self) -> Option<Table> {
-        let is_more = self.tests.iter().any(|own| {
+        let is_more = self.plan.tests.iter().any(|own| {
             own.gain.is_some()
                 || own.filter.is_some()
                 || own.noise.is_some()
                 || !own.known.is_empty()
         });
-        let rows = self.curves.iter().zip(&self.fit.tests).enumerate().map(|(at, both)| {
-            let ((asked, curve), own) = both;
-            let of = |value: f64| curve.output.told(value, FEW);
-            let cfc =
-                self.tests[at].filter.map_or_else(String::new, |own| own.0.class().to_string());
-            let gain =
-                self.tests[at].gain.map_or_else(String::new, |_| percent_signed(own.gain - 1.0));
-            let known = self.known[at].iter().zip(&own.known);
+        let rows = self.each().zip(&self.plan.known).map(|(test, known)| {
+            let Seen { asked, own, test: measured, .. } = test;
+            let known = known.iter().zip(&own.known);
             let known = known.map(|(own, found)| format!("{} {}", own.name, value(own, *found)));
-            let at_rest = own.noise_at_rest.map_or_else(String::new, of);
+            let cfc = measured.filter.map(|own| own.0.class().to_string());
+            let gain = measured.gain.map(|_| percent_signed(own.gain - 1.0));
             vec![
                 asked.file.clone(),
-                cfc,
-                of(own.noise),
-                at_rest,
-                gain,
-                known.collect::<Vec<_>>().join(", "),
+                cfc.unwrap_or_default(),
+                test.of(own.noise),
+                own.noise_at_rest.map_or_else(String::new, |own| test.of(own)),
+                gain.unwrap_or_default(),
+                list(known).join(", "),
             ]
         });
         let header =
@@ -150,12 +148,15 @@ impl FittedScene {
     /// What the uncertainty of the numbers makes of the measures.
     fn measures_table(&self) -> Table {
         let rows = self.measures.iter().map(|own| {
-            let of = |value: f64| quantity(value, own.unit, DIGITS);
-            let half = own.band.half.map_or("not determined".to_owned(), |half| {
-                format!("± {}", quantity(half, own.unit, 2))
-            });
+            let of = |value, digits| measure_text(&own.key, value, own.unit, digits);
+            let (value, least) = (own.band.value, SOLVED * own.band.value.abs());
+            let half = match own.band.half {
+                Ok(half) if half < least => format!("< {}", of(least, 1)),
+                Ok(half) => format!("± {}", of(half, 2)),
+                Err(why) => no_band(why).to_owned(),
+            };
             let bent = if own.band.is_bent { "curved: an order only" } else { "" };
-            vec![own.key.clone(), of(own.band.value), half, bent.to_owned()]
+            vec![own.key.clone(), of(value, DIGITS), half, bent.to_owned()]
         });
         Table::new("The fitted scene", &["", "value", "from the numbers", ""], rows)
     }
@@ -170,7 +171,7 @@ impl FittedScene {
         } else {
             all.extend(unconverged(fit));
         }
-        if let Some(why) = self.scatter().err().filter(|_| self.has_scatter) {
+        if let Some(why) = self.scatter().err().filter(|_| self.plan.arguments.scatter) {
             all.push(format!("no scatter is written: {why}"));
         }
         for (at, own) in
@@ -194,49 +195,8 @@ impl FittedScene {
             all.push(format!("noise does not tell this minimum from others: {others}"));
         }
         all.extend(self.shown.iter().map(undetermined));
-        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, _), own)| {
-            let held_out = own.held_out.map(|own| own.peak).filter(|off| off.abs() > MISSED)?;
-            Some(format!(
-                "fitted to the other tests alone, the peak of {} is off by {}: the scene does not carry from one \
-                 test to the other",
-                asked.file,
-                percent_signed(held_out)
-            ))
-        }));
-        let duration = self.scene.run.duration;
-        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
-            let Compared::Output(_) = curve.output else { return None };
-            let last = curve.rows.last()?.0 - own.shift;
-            (last > duration * (1.0 + BEYOND)).then(|| {
-                format!(
-                    "{} goes on for {} behind the end of the run, where the last value stands: give the scene a \
-                     longer `duration`",
-                    asked.file,
-                    quantity(last - duration, "s", FEW)
-                )
-            })
-        }));
-        let each = || self.curves.iter().zip(&fit.tests).zip(&self.tests);
-        all.extend(each().filter_map(|(((asked, curve), own), _)| {
-            other_zero(own, &asked.file, &|own| curve.output.told(own, FEW))
-        }));
-        all.extend(each().filter_map(|(((asked, curve), own), test)| {
-            misses(&asked.file, &curve.output.key(), own, test)
-        }));
-        all.extend(each().filter_map(|(((asked, curve), own), test)| {
-            let scatter = own.scatter.map(|own| own.deviation);
-            let known = test.noise.or(scatter).or(own.noise_at_rest)?;
-            (own.noise > NOISIER * known).then(|| {
-                let of = |value: f64| curve.output.told(value, FEW);
-                format!(
-                    "{}: what is left is {} where noise is {}: the scene, or what is said of the record, is not quite \
-                     what was tested, and intervals tell nothing of that",
-                    asked.file,
-                    of(own.noise),
-                    of(known)
-                )
-            })
-        }));
+        let duration = self.plan.scene.run.duration;
+        all.extend(self.each().flat_map(|own| own.said_first(duration)));
         all
     }
 
@@ -261,7 +221,8 @@ impl FittedScene {
         )];
         all.extend(self.among.iter().map(Among::remark));
         let profiled = self.numbers.iter().zip(&fit.numbers);
-        let profiled = profiled.filter(|own| own.1.source == Source::Profile);
+        let is_one = |own: &Interval| own.source == Source::Profile && own.ends != [None; 2];
+        let profiled = profiled.filter(|own| is_one(own.1));
         let profiled: Vec<String> = list(profiled.map(|own| format!("`{}`", own.0.name)));
         if !profiled.is_empty() {
             all.push(format!(
@@ -278,52 +239,13 @@ impl FittedScene {
                 fit.outliers
             ));
         }
-        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
-            let jump = curve.output.told(own.jump?, FEW);
-            Some(format!(
-                "{}: `{}` jumps by {jump} as the impact begins, so that only samples beside it tell of the clock: it may \
-                 be anywhere between them, which the intervals hold",
-                asked.file,
-                curve.output.key()
-            ))
-        }));
-        all.extend(self.curves.iter().zip(&fit.tests).filter_map(|((asked, curve), own)| {
-            let later = own.later_jump?;
-            Some(format!(
-                "{}: `{}` jumps again, by {} at {} of the record, where it is touched once more; which sample is the \
-                 first behind that is not looked for: the rows beside it are left out",
-                asked.file,
-                curve.output.key(),
-                curve.output.told(later.height, FEW),
-                quantity(later.time, "s", FEW)
-            ))
-        }));
-        all.extend(self.repeats());
+        all.extend(self.each().enumerate().flat_map(|(at, own)| own.remarks(at)));
         if let [_] = fit.tests[..] {
             all.push(
                 "one test tells nothing of how the scene carries to another height, mass or temperature".to_owned(),
             );
         }
         all
-    }
-
-    /// What records of one test differ by.
-    fn repeats(&self) -> Vec<String> {
-        let each = self.curves.iter().zip(&self.fit.tests).enumerate();
-        let first = each.filter(|own| self.tests[own.0].repeated == Some(own.0));
-        let told = first.filter_map(|(_, ((asked, curve), own))| {
-            let scatter = own.scatter?;
-            Some(format!(
-                "{} records of `{}`, {} the first: a row of them differs by {} (standard deviation), and {} rows stand \
-                 for one that is independent; that is their noise, and leaving out one of them tells nothing",
-                scatter.records,
-                asked.what(),
-                asked.file,
-                curve.output.told(scatter.deviation, FEW),
-                significant(scatter.correlation, 2)
-            ))
-        });
-        told.collect()
     }
 
     /// The answer in a few lines.
@@ -345,13 +267,9 @@ impl FittedScene {
 
     /// What stands above the scene.
     pub(super) fn comments(&self) -> Vec<String> {
-        let tests = self.curves.iter().zip(&self.fit.tests).map(|((asked, curve), own)| {
-            format!(
-                "{} ({}, {} rms)",
-                asked.file,
-                curve.output.key(),
-                curve.output.told(own.rms, FEW)
-            )
+        let tests = self.each().map(|test| {
+            let (file, key) = (&test.asked.file, test.curve.output.key());
+            format!("{file} ({key}, {} rms)", test.of(test.own.rms))
         });
         let unfinished = match self.fit.convergence {
             _ if self.fit.is_stopped => "not finished: ",
@@ -360,6 +278,19 @@ impl FittedScene {
         };
         let head = format!("{unfinished}fitted to {}", tests.collect::<Vec<_>>().join(", "));
         [head].into_iter().chain(self.verdict_lines()).collect()
+    }
+}
+
+/// Why there is no band, or no scatter, in words.
+pub(super) fn no_band(own: NoBand) -> &'static str {
+    match own {
+        NoBand::NotConverged => "the search has not converged",
+        NoBand::OnBound => "a number is on its bound",
+        NoBand::Contradicted => "the rows contradict it",
+        NoBand::Missed => "what is left is no noise",
+        NoBand::OtherMinimum => "there is another minimum",
+        NoBand::NotDetermined => "not determined",
+        _ => "not computed",
     }
 }
 
@@ -379,19 +310,6 @@ fn undetermined(own: &Shown) -> String {
     )
 }
 
-/// Rows before the impact that contradict the zero of a test.
-fn other_zero(own: &TestFit, file: &str, of: &dyn Fn(f64) -> String) -> Option<String> {
-    let other = own.other_zero?;
-    Some(format!(
-        "{file}: the {} rows before the impact read {} where nothing happens, and the fitted zero is {}: they \
-         contradict each other, so that the model, its bounds or the clock is not right (`--offset off` takes the zero \
-         as it is)",
-        other.rows,
-        of(other.median),
-        of(own.offset)
-    ))
-}
-
 /// What there is to say of a search that did not converge.
 fn unconverged(fit: &NetworkFit) -> Option<String> {
     match fit.convergence {
@@ -407,38 +325,14 @@ fn unconverged(fit: &NetworkFit) -> Option<String> {
     }
 }
 
-fn misses(file: &str, key: &str, own: &TestFit, test: &Test) -> Option<String> {
-    let off = own.model_peak / own.measured_peak - 1.0;
-    let largest = test.rows.iter().map(|row| row.1);
-    let largest = largest.max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
-    if test.kind == Kind::Blow && off.abs() > MISSED && largest * own.model_peak < 0.0 {
-        let [measured, model] =
-            [largest, own.model_peak].map(|own| if own < 0.0 { "negative" } else { "positive" });
-        return Some(format!(
-            "the largest value of {file} is {measured}, and `{key}` is {model}: turn the sign of the column"
-        ));
-    }
-    (off.abs() > MISSED).then(|| {
-        format!(
-            "the peak of {file} is missed by {}: noise, {}a model that it is not",
-            percent_signed(off),
-            if test.filter.is_none() && test.kind == Kind::Blow {
-                "a filter that the record went through (`--cfc`), or "
-            } else {
-                "or "
-            }
-        )
-    })
-}
-
-impl Study for FittedScene {
+impl Study for FittedScene<'_> {
     fn warnings(&self) -> Vec<String> {
         self.said_first()
     }
 
     fn text(&self, text: &mut Text) {
         text.warnings(&self.said_first());
-        text.title(title(&self.scene));
+        text.title(title(&self.plan.scene));
         self.among.iter().for_each(|own| text.table(&own.table()));
         self.tables().iter().for_each(|own| text.table(own));
         text.blank();

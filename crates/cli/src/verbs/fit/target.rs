@@ -84,7 +84,7 @@ pub(super) fn targets(
                 "it has no times; a force over a deformation is fitted to the model alone, at the rate at which it was \
                  pressed: \"{other}\""
             );
-            return Err(CliError::Fit { text: asked.text.clone(), reason });
+            return Err(asked.wrong(reason));
         }
         let curve = MeasuredCurve::read((FLAG, &asked.measured_as()), 0.0, assembly)?;
         let kept = curve.rows.into_iter().filter(|own| until.is_none_or(|until| own.0 <= until));
@@ -116,7 +116,7 @@ pub(super) fn check_alone(
     values: &[f64],
 ) -> Result<(), CliError> {
     let Compared::Alone(own) = output else { return Ok(()) };
-    let wrong = |reason: String| CliError::Fit { text: asked.text.clone(), reason };
+    let wrong = |reason: String| asked.wrong(reason);
     let model = poser.model(own.name(), values).map_err(wrong)?;
     if model.is_material == own.is_material() {
         return Ok(());

@@ -3,7 +3,7 @@
 use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Range, RecordFit};
 use dashpot_plot::Table;
 
-use super::{Fitted, Told};
+use super::{Fitted, asked::Measured};
 use crate::numbers::{quantity, share};
 
 /// Digits of fitted values.
@@ -48,10 +48,10 @@ pub(super) fn ends(fit: &LinearFit, is_material: bool) -> [(&'static str, String
 }
 
 /// The table of what the records determine.
-pub(super) fn determined(fitted: &Fitted) -> Table {
+pub(super) fn determined(fitted: &Fitted<'_>) -> Table {
     let unit = fitted.units().strength;
     let value = |own: f64| quantity(own, unit, DIGITS);
-    let rows = ends(&fitted.fit, fitted.is_material).into_iter().map(|(_, name, range)| {
+    let rows = ends(&fitted.fit, fitted.is_material()).into_iter().map(|(_, name, range)| {
         let high = range.high.map_or("no bound".to_owned(), value);
         let verdict = if range.is_identified() { "identified" } else { "not identified" };
         vec![name, value(range.value), value(range.low), high, verdict.to_owned()]
@@ -60,7 +60,7 @@ pub(super) fn determined(fitted: &Fitted) -> Table {
 }
 
 /// The answer in a few lines: the ends of the spectrum.
-pub(super) fn verdict(fitted: &Fitted) -> Vec<String> {
+pub(super) fn verdict(fitted: &Fitted<'_>) -> Vec<String> {
     let rows = determined(fitted).rows.into_iter();
     let line = |own: Vec<String>| match &own[..] {
         [name, value, low, high, verdict] => format!("{name} {value} ({low} to {high}), {verdict}"),
@@ -70,7 +70,7 @@ pub(super) fn verdict(fitted: &Fitted) -> Vec<String> {
 }
 
 /// The table of the branches.
-pub(super) fn branches(fitted: &Fitted) -> Table {
+pub(super) fn branches(fitted: &Fitted<'_>) -> Table {
     let units = fitted.units();
     let Fitted { fit, .. } = fitted;
     let (element, time) = match fit.form {
@@ -100,7 +100,7 @@ fn part(own: f64, record: &RecordFit, unit: &str) -> String {
 }
 
 /// The table of the records.
-pub(super) fn records(fitted: &Fitted) -> Table {
+pub(super) fn records(fitted: &Fitted<'_>) -> Table {
     let unit = fitted.units().answer;
     let rows = fitted.records.iter().zip(&fitted.fit.records).map(|(told, own)| {
         vec![
@@ -119,7 +119,7 @@ pub(super) fn records(fitted: &Fitted) -> Table {
 }
 
 /// What comes first: where the fit is not what it may be taken for.
-pub(super) fn warnings(fitted: &Fitted) -> Vec<String> {
+pub(super) fn warnings(fitted: &Fitted<'_>) -> Vec<String> {
     let Fitted { fit, .. } = fitted;
     let mut all: Vec<String> = Vec::new();
     for (told, own) in fitted.records.iter().zip(&fit.records) {
@@ -136,7 +136,7 @@ pub(super) fn warnings(fitted: &Fitted) -> Vec<String> {
 const NAMED: usize = 5;
 
 /// The rows of a record that were left out.
-fn apart(told: &Told, record: &RecordFit) -> Option<String> {
+fn apart(told: &Measured, record: &RecordFit) -> Option<String> {
     let rows = record.outliers.iter().take(NAMED).map(|own| {
         let way = if own.off > 0.0 { "above" } else { "below" };
         let line = told.lines.get(own.row).copied().unwrap_or_default();
@@ -170,12 +170,12 @@ fn contradicts(file: &str, own: &Contradiction, floor: f64) -> String {
 }
 
 /// What is to be known of the fit.
-pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
+pub(super) fn notes(fitted: &Fitted<'_>) -> Vec<String> {
     let Fitted { fit, .. } = fitted;
     let unit = fitted.units().answer;
     let mut all = Vec::new();
-    let error = share(fitted.error);
-    let is_met = fit.is_kept && fit.misfit.largest <= fitted.error;
+    let error = share(fitted.arguments.error());
+    let is_met = fit.is_kept && fit.misfit.largest <= fitted.arguments.error();
     let of = if fit.records.iter().any(|own| own.largest.is_some()) {
         " (of its largest value, where a record has a history)"
     } else {
@@ -201,7 +201,7 @@ pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
         Form::Maxwell => fit.spectrum.spring <= 0.0,
         Form::Kelvin => fit.spectrum.dashpot > 0.0,
     };
-    if flows && !fitted.is_solid {
+    if flows && !fitted.arguments.solid {
         all.push(
             "under a constant force it flows for ever: `--solid` if it is known not to".to_owned(),
         );
@@ -231,20 +231,13 @@ pub(super) fn notes(fitted: &Fitted) -> Vec<String> {
 }
 
 /// What stands above the model in the scene.
-pub(super) fn comments(fitted: &Fitted) -> Vec<String> {
-    let unit = fitted.units().strength;
-    let value = |own: f64| quantity(own, unit, DIGITS);
+pub(super) fn comments(fitted: &Fitted<'_>) -> Vec<String> {
     let files: Vec<&str> = fitted.records.iter().map(|own| own.file.as_str()).collect();
-    let ends = ends(&fitted.fit, fitted.is_material).into_iter().map(|(_, name, range)| {
-        let to = range.high.map_or("no bound".to_owned(), value);
-        let verdict = if range.is_identified() { "identified" } else { "not identified" };
-        format!("{name} {} ({} to {to}), {verdict}", value(range.value), value(range.low))
-    });
     let head = format!(
         "fitted to {}; {} rms, no passive network comes nearer than {}",
         files.join(", "),
         share(fitted.fit.misfit.rms),
         share(fitted.fit.floor)
     );
-    [head].into_iter().chain(ends).collect()
+    [head].into_iter().chain(verdict(fitted)).collect()
 }

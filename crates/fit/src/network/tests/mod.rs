@@ -118,6 +118,15 @@ fn two_numbers_of_which_only_the_sum_is_seen_are_not_determined() {
     assert!(own.numbers[2].is_identified());
     let sum = own.numbers[0].value + own.numbers[1].value;
     assert!((sum / TRUE[0] - 1.0).abs() < 0.03, "{sum}");
+    // What depends on the sum alone has the band of a fit of two numbers, and what does not has none.
+    let two = fit(&self::numbers(), &[test(2, 5.0)], SETTINGS, &|_, own| Ok(pulse(own))).unwrap();
+    let peak = |values: &[f64]| pulse(values).peak().1;
+    let bands = own.bands(&|own| Some(vec![Some(peak(&[own[0] + own[1], own[2]])), Some(own[0])]));
+    let right = two.bands(&|own| Some(vec![Some(peak(own))])).unwrap()[0].unwrap();
+    let [of_sum, of_one] = bands.unwrap()[..] else { panic!() };
+    let half = of_sum.unwrap().half.unwrap();
+    assert!((half / right.half.unwrap() - 1.0).abs() < 0.05, "{half} {right:?}");
+    assert_eq!(of_one.unwrap().half, Err(NoBand::NotDetermined));
 }
 
 #[test]
@@ -126,6 +135,11 @@ fn a_bound_and_rows_that_are_far_off_are_told() {
     numbers[0].high = 0.8 * TRUE[0];
     let own = fit(&numbers, &[test(1, 5.0)], SETTINGS, &|_, own| Ok(pulse(own))).unwrap();
     assert!(own.numbers[0].is_on_bound && !own.numbers[0].is_identified());
+    let bands = own.bands(&|own| Some(vec![Some(pulse(own).peak().1)])).unwrap();
+    assert_eq!(bands[0].unwrap().half, Err(NoBand::OnBound));
+    assert!(
+        own.tests[0].band.iter().all(Option::is_none) && own.interval_of(&[0.0, 1.0]).is_none()
+    );
     let mut test = test(1, 5.0);
     (100..104).for_each(|at| test.rows[at].1 += 2000.0);
     let model = |_: usize, own: &[f64]| Ok(pulse(own));
@@ -244,6 +258,8 @@ fn a_minimum_at_which_one_start_of_several_ended_is_none_and_more_starts_find_it
     let few = at(2);
     assert!(!few.is_converged(), "{:?}", few.reached);
     assert!(few.numbers[0].ends == [None; 2] && !few.is_identified(0), "{:?}", few.numbers);
+    assert!(few.tests[0].band.iter().all(Option::is_none));
+    assert_eq!(few.reservation(), Some(NoBand::NotConverged));
     let many = at(60);
     assert!(many.is_converged() && many.is_identified(0), "{:?}", many.reached);
     assert!((many.numbers[0].value / 7.0 - 1.0).abs() < 0.01, "{:?}", many.numbers);
