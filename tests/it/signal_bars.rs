@@ -243,10 +243,7 @@ fn bounds_are_told_wherever_a_number_is() {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let said = words(&text);
     assert!(said.contains("Head resultant: its axis z is clipped at 120 g"), "{said}");
-    assert!(
-        said.contains("peak 120.2 at least g") || said.contains("peak 120.1 at least g"),
-        "{said}"
-    );
+    assert!(said.contains("peak 120.2 at least g"), "{said}");
     let all = json(&["signal", &path, "--json", "--limit", "Head.peak<=250 g"]);
     let of = |name: &str, word: &str| {
         let all = all["channels"].as_array().unwrap().iter().find(|own| own["name"] == name);
@@ -393,14 +390,16 @@ fn records() -> Vec<Record> {
 /// Bars are those of one case in twenty. Of so many repeats no measure may be outside more often than that and chance.
 fn bars_hold(all: &[Record], repeats: u64) {
     let least = 0.95 - 2.6 * (0.95 * 0.05 / repeats as f64).sqrt();
-    let mut worst = Vec::new();
+    let (mut worst, mut smallest) = (Vec::new(), 1.0_f64);
     for record in all {
         for (measure, share) in coverage(record, repeats) {
+            smallest = smallest.min(share);
             if share < least {
                 worst.push(format!("{}: {share:.3} of {record:?}", measure.word()));
             }
         }
     }
+    println!("smallest coverage of a measure: {smallest:.4}");
     assert!(worst.is_empty(), "below {least:.3}:\n{}", worst.join("\n"));
 }
 

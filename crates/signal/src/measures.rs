@@ -345,7 +345,12 @@ impl<'c> Reader<'c> {
         if span.1 - span.0 < CLIP {
             return Some(Reading { value: Err(Reason::RecordTooShort), ..reading });
         }
-        let level = |duration: f64| exceedance.level(duration, counted).value;
+        // Where the magnitude passes zero, rounding leaves it above.
+        let rounding = ROUNDING * self.channel.largest().1;
+        let level = |duration: f64| {
+            let level = exceedance.level(duration, counted).value;
+            if level <= rounding { 0.0 } else { level }
+        };
         let value = level(CLIP);
         let shifts = self.sampling.passages(value, span, f64::abs);
         let shift = match counted {
