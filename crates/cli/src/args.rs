@@ -274,7 +274,10 @@ pub(crate) fn frequency_class(text: &str) -> Result<Cfc, String> {
 
 /// What stands beyond the ends of a record for a filter.
 pub(crate) fn paddings() -> PossibleValuesParser {
-    let value = |own: Padding| PossibleValue::new(own.word()).help(own.summary());
+    let value = |own: Padding| {
+        let [word, summary] = own.words();
+        PossibleValue::new(word).help(summary)
+    };
     PossibleValuesParser::new(Padding::ALL.map(value))
 }
 

@@ -45,28 +45,11 @@ pub struct Place {
     pub(crate) class: Option<char>,
 }
 
-/// Words for a direction that stand alone in a name.
-const WORDS: [(&str, Axis); 7] = [
-    ("longitudinal", Axis::X),
-    ("lateral", Axis::Y),
-    ("vertical", Axis::Z),
-    ("foreaft", Axis::X),
-    ("längs", Axis::X),
-    ("quer", Axis::Y),
-    ("hoch", Axis::Z),
-];
+/// Words for a direction, of x, y and z.
+const WORDS: [&[&str]; 3] =
+    [&["longitudinal", "foreaft", "längs"], &["lateral", "quer"], &["vertical", "hoch"]];
 /// Short ones, which tell a direction where something else is named as well: `Head A-P`, `Head lat`.
-const SHORT: [(&str, Axis); 9] = [
-    ("ap", Axis::X),
-    ("pa", Axis::X),
-    ("lr", Axis::Y),
-    ("rl", Axis::Y),
-    ("si", Axis::Z),
-    ("is", Axis::Z),
-    ("long", Axis::X),
-    ("lat", Axis::Y),
-    ("vert", Axis::Z),
-];
+const SHORT: [&[&str]; 3] = [&["ap", "pa", "long"], &["lr", "rl", "lat"], &["si", "is", "vert"]];
 /// Symbols that a letter of an axis is written behind: `ax`, `accX`, `Fz`.
 const SYMBOLS: [&str; 9] = ["a", "acc", "accel", "g", "f", "v", "d", "s", "u"];
 /// Words that say no place.
@@ -193,8 +176,8 @@ impl Place {
         let behind = name[end(until)..].trim_matches(is_apart);
         let rest = [before, behind].into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>();
         let rest = rest.join(" ");
-        let is_short = tokens[first].len() == 1
-            || SHORT.iter().any(|own| own.0 == tokens[first].to_lowercase());
+        let is_short =
+            tokens[first].len() == 1 || SHORT.concat().contains(&&*tokens[first].to_lowercase());
         let is_sure = is_symbol || symbol.is_empty() && is_named && is_short;
         let location = if is_named || kept > 0 { rest.clone() } else { String::new() };
         let resultant = [&*location, "resultant"].join(" ").trim_start_matches(is_apart).to_owned();
@@ -212,7 +195,8 @@ fn is_code(name: &str) -> bool {
 /// The axis that two parts of a name tell together: `A-P`, `fore-aft`.
 fn pair_axis(one: &str, other: &str) -> Option<Axis> {
     let both = [one, other].concat().to_lowercase();
-    WORDS.iter().chain(&SHORT).find(|own| own.0 == both).map(|own| own.1)
+    let is_one = |at: usize| [WORDS[at], SHORT[at]].concat().contains(&&*both);
+    Axis::ALL.into_iter().enumerate().find(|own| is_one(own.0)).map(|own| own.1)
 }
 
 /// The axis that a part of a name tells, and the symbol before its letter. The last part may end in a letter of an axis

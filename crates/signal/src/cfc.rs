@@ -1,16 +1,11 @@
 //! Channel frequency classes of SAE J211-1 and ISO 6487.
 
-use std::{
-    f64::consts::{PI, SQRT_2},
-    fmt,
-};
+use std::f64::consts::{PI, SQRT_2};
 
 use thiserror::Error;
 
 /// The design frequency in parts of the class: where the gain is one half.
 const DESIGN: f64 = 2.0775;
-/// The standards want a sampling rate of so many times the class.
-const LEAST_RATE: f64 = 10.0;
 /// After so many periods of the design frequency the answer to an impulse has died out to 10⁻¹².
 const MEMORY: f64 = 7.0;
 /// Samples that it remembers at most.
@@ -43,32 +38,17 @@ impl Padding {
     /// Every mode, the first by default.
     pub const ALL: [Self; 5] = [Self::Odd, Self::Even, Self::Hold, Self::None, Self::Zero];
 
-    /// Its word.
-    pub fn word(self) -> &'static str {
+    /// Its word, and what it is.
+    pub fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Odd => "odd",
-            Self::Even => "even",
-            Self::Hold => "hold",
-            Self::None => "none",
-            Self::Zero => "zero",
+            Self::Odd => ["odd", "the record turned about its end point: value and slope go on"],
+            Self::Even => ["even", "the record mirrored at its end"],
+            Self::Hold => ["hold", "the value of the end"],
+            Self::None => {
+                ["none", "nothing: each pass begins in the steady state of its first value"]
+            }
+            Self::Zero => ["zero", "zero, as if the record were part of a longer one at rest"],
         }
-    }
-
-    /// What it is.
-    pub fn summary(self) -> &'static str {
-        match self {
-            Self::Odd => "the record turned about its end point: value and slope go on",
-            Self::Even => "the record mirrored at its end",
-            Self::Hold => "the value of the end",
-            Self::None => "nothing: each pass begins in the steady state of its first value",
-            Self::Zero => "zero, as if the record were part of a longer one at rest",
-        }
-    }
-}
-
-impl fmt::Display for Padding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
     }
 }
 
@@ -119,19 +99,9 @@ impl Cfc {
         self.class
     }
 
-    /// Whether it is one of those that the standards name.
-    pub fn is_standard(self) -> bool {
-        Self::STANDARD.iter().any(|own| (own - self.class).abs() < 1e-9 * own)
-    }
-
     /// The frequency at which the gain is one half \[Hz\].
     pub fn design_frequency(self) -> f64 {
         DESIGN * self.class
-    }
-
-    /// The least sampling rate that the standards allow \[Hz\].
-    pub fn least_rate(self) -> f64 {
-        LEAST_RATE * self.class
     }
 
     fn warped(self, rate: f64) -> f64 {

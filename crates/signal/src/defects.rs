@@ -5,7 +5,7 @@ use dashpot_units::{Dimension, percent, quantity, si_unit};
 use thiserror::Error;
 
 use crate::{
-    Analysis, Axis, Channel, Part, Removal,
+    Analysis, Axis, Cfc, Channel, Part, Removal,
     clipping::{EQUAL, runs},
 };
 
@@ -19,6 +19,8 @@ const FEW: usize = 10;
 /// Peaks of accelerations and lengths of pulses that impact tests have.
 const ACCELERATIONS: (f64, f64) = (0.5 * STANDARD_GRAVITY, 2e4 * STANDARD_GRAVITY);
 const LENGTHS: (f64, f64) = (2e-5, 2.0);
+/// The standards want a sampling rate of so many times the class of a filter.
+const LEAST_RATE: f64 = 10.0;
 /// Digits of numbers in messages.
 const DIGITS: usize = 3;
 
@@ -287,12 +289,12 @@ fn of_pulse(own: &Analysis, peak: f64, unit: Dimension) -> Vec<Defect> {
 
 fn of_filter(own: &Analysis) -> Vec<Defect> {
     let Some(cfc) = own.settings.cfc else { return Vec::new() };
-    let (rate, class, least) = (own.rate(), cfc.class(), cfc.least_rate());
+    let (rate, class, least) = (own.rate(), cfc.class(), LEAST_RATE * cfc.class());
     let mut all = Vec::new();
     if rate < least * (1.0 - 1e-6) {
         all.push(Defect::SlowForClass { rate, class, least });
     }
-    if !cfc.is_standard() {
+    if !Cfc::STANDARD.iter().any(|own| (own - class).abs() < 1e-9 * own) {
         all.push(Defect::OddClass { class });
     }
     all

@@ -199,12 +199,12 @@ fn every_padding_keeps_what_it_says() {
         assert_eq!(filtered.len(), ramp.len());
         // A symmetrical filter keeps a line, far from the ends with every padding.
         let inner = (filtered[100] - 150.0).abs();
-        assert!(inner < if padding == Padding::Odd { 1e-6 } else { 0.5 }, "{padding}: {inner}");
+        assert!(inner < if padding == Padding::Odd { 1e-6 } else { 0.5 }, "{padding:?}: {inner}");
         let ends = (filtered[0] - 50.0).abs();
         match padding {
             Padding::Odd => assert!(ends < 1e-3, "{ends}"),
             Padding::Zero => assert!(ends > 10.0, "{ends}"),
-            _ => assert!(ends < 40.0, "{padding}: {ends}"),
+            _ => assert!(ends < 40.0, "{padding:?}: {ends}"),
         }
     }
 }

@@ -181,7 +181,7 @@ mod tests {
                         let off = (product - right[row][column]).abs();
                         assert!(
                             off < 3e-7 * right[row][row],
-                            "{padding} {count} {row} {column} {off}"
+                            "{padding:?} {count} {row} {column} {off}"
                         );
                     }
                 }

@@ -1,9 +1,6 @@
 //! How well a model meets a test, by ISO/TS 18571.
 
-mod corridor;
 mod magnitude;
-mod phase;
-mod slope;
 
 use serde::Serialize;
 use thiserror::Error;
@@ -69,6 +66,18 @@ impl Unrated {
     }
 }
 
+/// Half widths of both corridors in parts of the measured peak.
+const INNER: f64 = 0.05;
+const OUTER: f64 = 0.5;
+/// The largest shift in parts of the length.
+const MOST_SHIFT: f64 = 0.2;
+/// A correlation that is larger by less than this is the same: rounding moves nothing.
+const SAME: f64 = 1e-12;
+/// Slopes are means over so many samples, and over as many as there are towards an end.
+const MEANS: usize = 9;
+/// The difference of slopes in parts of those of the test from which on the score is 0.
+const MOST_SLOPE: f64 = 2.0;
+
 /// Two curves at the same even steps.
 #[derive(Debug, Clone, Copy)]
 struct Pair<'p> {
@@ -105,13 +114,14 @@ impl Rating {
     }
 
     fn of_pair(pair: Pair<'_>) -> Self {
-        let shift = phase::shift(pair);
+        let shift = pair.shift();
         let shifted = pair.shifted(shift);
         Self {
-            corridor: corridor::score(pair),
-            phase: phase::score(shift, pair.test.len()),
+            corridor: pair.corridor(),
+            phase: (1.0 - shift.unsigned_abs() as f64 / (MOST_SHIFT * pair.test.len() as f64))
+                .max(0.0),
             magnitude: magnitude::score(shifted),
-            slope: slope::score(shifted),
+            slope: shifted.slope(),
             later: shift as f64 * STEP,
         }
     }
@@ -150,6 +160,58 @@ impl<'p> Pair<'p> {
     fn values(self) -> impl Iterator<Item = (f64, f64)> + use<'p> {
         self.test.iter().copied().zip(self.model.iter().copied())
     }
+
+    /// How much of the time the model keeps to corridors about the test: the mean over all samples of 1 within the inner
+    /// one, 0 outside of the outer one, and the square of how far it is from the outer one between them.
+    fn corridor(self) -> f64 {
+        let peak = self.test.iter().map(|own| own.abs()).fold(0.0, f64::max);
+        let one = |(test, model): (f64, f64)| {
+            let off = (test - model).abs() / peak;
+            ((OUTER - off) / (OUTER - INNER)).clamp(0.0, 1.0).powi(2)
+        };
+        self.values().map(one).sum::<f64>() / self.test.len() as f64
+    }
+
+    /// By how many steps the model is later: the shift with the largest correlation; of equal ones the smallest, of two as
+    /// small the one by which it is later.
+    fn shift(self) -> isize {
+        let most = (MOST_SHIFT * self.test.len() as f64).floor();
+        let (mut best, mut found) = (self.correlation(), 0);
+        let mut by: isize = 1;
+        while by as f64 <= most {
+            for own in [by, -by] {
+                let correlation = self.shifted(own).correlation();
+                if correlation > best + SAME {
+                    (best, found) = (correlation, own);
+                }
+            }
+            by += 1;
+        }
+        found
+    }
+
+    /// Correlation about both means; −1 where one of both is constant, which tells no shift.
+    fn correlation(self) -> f64 {
+        let count = self.test.len() as f64;
+        let mean = |own: &[f64]| own.iter().sum::<f64>() / count;
+        let (of_test, of_model) = (mean(self.test), mean(self.model));
+        let mut sums = [0.0; 3];
+        for (test, model) in self.values() {
+            let (test, model) = (test - of_test, model - of_model);
+            sums[0] += test * model;
+            sums[1] += test * test;
+            sums[2] += model * model;
+        }
+        let size = (sums[1] * sums[2]).sqrt();
+        if size > 0.0 { sums[0] / size } else { -1.0 }
+    }
+
+    /// By the sums of absolute differences of both slopes, and of those of the test.
+    fn slope(self) -> f64 {
+        let [test, model] = [self.test, self.model].map(|own| smooth(&differences(own)));
+        let off = test.iter().zip(&model).map(|(test, model)| (test - model).abs()).sum();
+        falling(off, test.iter().map(|own| own.abs()).sum(), MOST_SLOPE)
+    }
 }
 
 /// A score that falls with the difference of two curves in parts of the measured one, from 1 to 0 at `most`.
@@ -158,6 +220,26 @@ fn falling(difference: f64, measured: f64, most: f64) -> f64 {
         return 1.0;
     }
     (1.0 - difference / (most * measured)).max(0.0)
+}
+
+/// Central differences per step, at the ends one-sided ones.
+fn differences(values: &[f64]) -> Vec<f64> {
+    let last = values.len() - 1;
+    let one = |at: usize| {
+        let (from, to) = (at.saturating_sub(1), (at + 1).min(last));
+        (values[to] - values[from]) / (to - from) as f64
+    };
+    (0..=last).map(one).collect()
+}
+
+fn smooth(values: &[f64]) -> Vec<f64> {
+    let last = values.len() - 1;
+    let one = |at: usize| {
+        let half = (MEANS / 2).min(at).min(last - at);
+        let around = &values[at - half..=at + half];
+        around.iter().sum::<f64>() / around.len() as f64
+    };
+    (0..=last).map(one).collect()
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ impl FitArguments {
         all.extend(self.vary.iter().map(|own| ("vary", own.clone())));
         all.extend(self.values.set.iter().map(|own| ("set", format!("{}={}", own.0, own.1))));
         all.extend(self.cfc.map(|own| ("cfc", own.class().to_string())));
-        all.extend(self.cfc.map(|_| ("padding", self.padding().word().to_owned())));
+        all.extend(self.cfc.map(|_| ("padding", self.padding().words()[0].to_owned())));
         all.extend(self.noise.clone().map(|own| ("noise", own)));
         all.extend(self.gain.map(|own| ("gain", share(own))));
         all.push(("shift", on(self.shift).to_owned()));

@@ -212,7 +212,7 @@ impl FitArguments {
 
     fn padding(&self) -> Padding {
         let given = self.padding.as_deref();
-        Padding::ALL.into_iter().find(|own| Some(own.word()) == given).unwrap_or_default()
+        Padding::ALL.into_iter().find(|own| Some(own.words()[0]) == given).unwrap_or_default()
     }
 }
 

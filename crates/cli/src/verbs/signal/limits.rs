@@ -16,26 +16,19 @@ const SAME: [(&str, &[&str]); 4] = [
     ("transmitted-force", &["peak-force"]),
 ];
 
-/// A limit on a measure of a channel.
+/// Limits that one argument states, each with the channel and the measure of signals in its key.
 #[derive(Debug, Clone)]
-pub(super) struct SignalLimit {
-    /// The name of the channel.
-    channel: String,
-    /// The word of the measure.
-    word: String,
-    pub(super) limit: Limit,
-}
+pub(super) struct Parsed(pub(super) Vec<Limit>);
 
-/// Limits that one argument states.
-#[derive(Debug, Clone)]
-pub(super) struct Parsed {
-    pub(super) list: Vec<SignalLimit>,
+/// The channel and the measure in a key.
+fn parts(key: &str) -> (&str, &str) {
+    key.rsplit_once('.').unwrap_or(("", key))
 }
 
 /// What is known of a limit on a channel, or on the mean of several tests.
 #[derive(Clone, Copy)]
 pub(super) struct Verdict<'s> {
-    pub(super) limit: &'s SignalLimit,
+    pub(super) limit: &'s Limit,
     /// The channel; of several tests the first one.
     pub(super) signal: &'s Signal,
     /// How many tests it is judged by.
@@ -56,7 +49,7 @@ impl Verdict<'_> {
     /// What is left of the bound, in parts of it; `None` of what is only bounded.
     pub(super) fn margin(&self) -> Option<f64> {
         self.known.bar()?;
-        self.limit.limit.bound.margin(self.known.value.ok()?)
+        self.limit.bound.margin(self.known.value.ok()?)
     }
 }
 
@@ -100,17 +93,13 @@ fn judge(own: &Reading, bound: Bound, reason: Option<Reason>) -> Judgement {
 pub(super) fn parse(text: &str) -> Result<Parsed, String> {
     let place = text.find(['<', '>', '=']).unwrap_or(text.len());
     let (key, rest) = text.split_at(place);
-    let (channel, word) = key.trim().rsplit_once('.').unwrap_or(("", key.trim()));
+    let (channel, word) = parts(key.trim());
     let same = SAME.iter().find(|own| own.0 == word).map(|own| own.1);
-    let own = |limit: Limit| SignalLimit {
-        channel: channel.to_owned(),
-        word: word.to_owned(),
-        limit: Limit { key: key.trim().to_owned(), ..limit },
-    };
+    let own = |limit: Limit| Limit { key: key.trim().to_owned(), ..limit };
     let mut fault = None;
     for word in same.unwrap_or(&[word]) {
         match parse_limits(&format!("{channel}.{word}{rest}")) {
-            Ok(list) => return Ok(Parsed { list: list.into_iter().map(own).collect() }),
+            Ok(list) => return Ok(Parsed(list.into_iter().map(own).collect())),
             Err(message) => {
                 let bare = || parse_limits(&format!("{word}{rest}")).err();
                 let bare = if channel.is_empty() { bare() } else { None };
@@ -122,15 +111,16 @@ pub(super) fn parse(text: &str) -> Result<Parsed, String> {
 }
 
 /// Whether a measure of a channel is the one of a limit.
-fn is_it(limit: &SignalLimit, measure: Measure, dimension: Dimension) -> bool {
+fn is_it(limit: &Limit, measure: Measure, dimension: Dimension) -> bool {
     let peak = match dimension {
         Dimension::ACCELERATION => "peak-acceleration",
         Dimension::FORCE => "peak-force",
         Dimension::VELOCITY => "peak-velocity",
         _ => "peak-deformation",
     };
-    let is_force = dimension == Dimension::FORCE && limit.word == "transmitted-force";
-    limit.word == measure.word() || measure == Measure::Peak && (limit.word == peak || is_force)
+    let (_, word) = parts(&limit.key);
+    let is_force = dimension == Dimension::FORCE && word == "transmitted-force";
+    word == measure.word() || measure == Measure::Peak && (word == peak || is_force)
 }
 
 /// Refuses a limit on what no channel has.
@@ -149,9 +139,9 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
         let mut known: Vec<String> = keys.collect();
         known.sort();
         known.dedup();
-        let key = limit.limit.key.clone();
-        let has_word = |own: &&String| own.rsplit_once('.').is_some_and(|own| own.1 == limit.word);
-        let meant = if limit.channel.is_empty() {
+        let key = limit.key.clone();
+        let has_word = |own: &&String| parts(own).1 == key;
+        let meant = if parts(&key).0.is_empty() {
             known.iter().find(has_word).cloned()
         } else {
             nearest(&key, known.iter().map(String::as_str)).map(str::to_owned)
@@ -163,11 +153,11 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
 
 impl Signals {
     /// What channels say of the measure of a limit: those of its name, and of a location its resultant, or its only axis.
-    fn readings(&self, limit: &SignalLimit) -> Vec<(&Signal, &Reading)> {
+    fn readings(&self, limit: &Limit) -> Vec<(&Signal, &Reading)> {
+        let (name, _) = parts(&limit.key);
         let is_named = |own: &&Signal| {
-            own.analysis.channel.name() == limit.channel
-                || own.analysis.part.location() == Some(&*limit.channel)
-                    && self.fuller(own).is_none()
+            own.analysis.channel.name() == name
+                || own.analysis.part.location() == Some(name) && self.fuller(own).is_none()
         };
         let reading = |own| Some((own, reading(own, limit)?));
         self.all.iter().filter(is_named).filter_map(reading).collect()
@@ -193,7 +183,7 @@ impl Signals {
         let mut verdicts = Vec::new();
         for limit in &self.limits {
             let found = self.readings(limit);
-            let tests = if limit.limit.of_mean { found.len().max(1) } else { 1 };
+            let tests = if limit.of_mean { found.len().max(1) } else { 1 };
             verdicts.extend(found.chunks(tests).filter_map(|own| self.verdict(limit, own)));
         }
         verdicts
@@ -202,7 +192,7 @@ impl Signals {
     /// That of some tests, by their mean. What does not hold all of the motion of a body tells the least that its measure is.
     fn verdict<'s>(
         &'s self,
-        limit: &'s SignalLimit,
+        limit: &'s Limit,
         tests: &[(&'s Signal, &'s Reading)],
     ) -> Option<Verdict<'s>> {
         let (signal, reading) = *tests.first()?;
@@ -213,7 +203,7 @@ impl Signals {
         let is_cut = tests.iter().any(|own| own.0.analysis.contact.is_cut);
         let reason = [(is_part, Reason::OtherAxes), (is_cut, Reason::Cut)];
         let reason = reason.into_iter().find(|own| own.0).map(|own| own.1);
-        let bound = limit.limit.bound;
+        let bound = limit.bound;
         let known = mean(&tests.iter().map(|own| own.1).collect::<Vec<_>>())?;
         let mut judgement = judge(&known, bound, reason);
         // A rig that guides the body leaves other axes nothing that would change what is said.
@@ -239,7 +229,7 @@ impl Signals {
 }
 
 /// The reading of a channel that a limit is on.
-fn reading<'s>(signal: &'s Signal, limit: &SignalLimit) -> Option<&'s Reading> {
+fn reading<'s>(signal: &'s Signal, limit: &Limit) -> Option<&'s Reading> {
     let dimension = signal.analysis.channel.dimension();
     signal.analysis.readings.iter().find(|own| is_it(limit, own.measure, dimension))
 }

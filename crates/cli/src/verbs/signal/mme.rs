@@ -1,14 +1,15 @@
 //! Tests in ISO-MME: an `.mme` file with its folder, the folder, or a zip of it.
 
 use std::{
-    fs,
+    fs, io,
     path::{Path, PathBuf},
 };
 
 use dashpot_scene::table_text;
 use dashpot_signal::iso_mme::{self, MmeChannel};
+use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_with_limit};
+use rawzip::{CompressionMethod, ZipArchive};
 
-use super::zip;
 use crate::{
     error::{CliError, reason},
     input::bytes_of,
@@ -16,6 +17,11 @@ use crate::{
 
 /// A test has at most so many channels.
 const MOST_FILES: usize = 1000;
+
+/// A file in a zip is at most so long, in bytes.
+const MOST_BYTES: usize = 64 << 20;
+/// All that are wanted of it are together at most so long.
+const MOST_TOGETHER: usize = 256 << 20;
 
 /// A text of a test: its name and its bytes.
 type Part = (String, Vec<u8>);
@@ -71,8 +77,7 @@ fn of_folder(path: &Path) -> Result<Vec<Part>, String> {
         own.is_dir() && own.file_name().is_some_and(|name| name.eq_ignore_ascii_case("channel"))
     };
     let entries = |folder: &Path| -> Result<Vec<PathBuf>, String> {
-        let unreadable =
-            |error: std::io::Error| format!("`{}`: {}", folder.display(), reason(&error));
+        let unreadable = |error: io::Error| format!("`{}`: {}", folder.display(), reason(&error));
         let all = fs::read_dir(folder).map_err(unreadable)?;
         all.map(|own| own.map(|own| own.path()).map_err(unreadable)).collect()
     };
@@ -88,9 +93,9 @@ fn of_folder(path: &Path) -> Result<Vec<Part>, String> {
     };
     let files: Vec<PathBuf> = files.into_iter().filter(|own| is_channel(&name(own))).collect();
     if files.len() > MOST_FILES {
-        return Err(format!("there are more than {MOST_FILES} channels in it"));
+        return Err(too_many());
     }
-    let mut left = zip::MOST_TOGETHER;
+    let mut left = MOST_TOGETHER;
     let read = |own: &PathBuf| {
         let bytes = bytes_of(own).map_err(|error| format!("{}: {}", name(own), reason(&error)))?;
         let shorter = left.checked_sub(bytes.len());
@@ -103,5 +108,52 @@ fn of_folder(path: &Path) -> Result<Vec<Part>, String> {
 /// The channels in a zip, wherever they stand in it.
 fn of_zip(path: &Path) -> Result<Vec<Part>, String> {
     let bytes = bytes_of(path).map_err(|error| format!("it cannot be read: {}", reason(&error)))?;
-    zip::files(&bytes, is_channel, MOST_FILES)
+    let wrong = |error: rawzip::Error| format!("it is no zip that can be read: {error}");
+    let archive = ZipArchive::from_slice(&bytes).map_err(wrong)?;
+    let (mut entries, mut files) = (archive.entries(), Vec::new());
+    let (mut ranges, mut left): (Vec<(u64, u64)>, _) = (Vec::new(), MOST_TOGETHER);
+    while let Some(entry) = entries.next_entry().map_err(wrong)? {
+        let path = String::from_utf8_lossy(entry.file_path().as_ref()).into_owned();
+        let name = path.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+        if !is_channel(&name) {
+            continue;
+        }
+        if files.len() == MOST_FILES {
+            return Err(too_many());
+        }
+        let local = archive.get_entry(entry.wayfinder()).map_err(wrong)?;
+        let (packed, range) = (local.data(), local.compressed_data_range());
+        if ranges.iter().any(|own| own.0 < range.1 && range.0 < own.1) {
+            return Err(format!("{name} lies over another file: it is no zip of a test"));
+        }
+        ranges.push(range);
+        let method = entry.compression_method();
+        let most = MOST_BYTES.min(left);
+        let plain = if method == CompressionMethod::DEFLATE {
+            decompress_to_vec_with_limit(packed, most).map_err(|fault| match fault.status {
+                TINFLStatus::HasMoreOutput => too_long(&name),
+                _ => format!("{name} is damaged"),
+            })?
+        } else if method == CompressionMethod::STORE {
+            packed.to_vec()
+        } else {
+            return Err(format!(
+                "{name} is packed in a way that is not read: pack it anew, or unpack it"
+            ));
+        };
+        left = left.checked_sub(plain.len()).ok_or_else(|| too_long(&name))?;
+        // Only the checksum is looked at: nothing of it is kept.
+        let read = io::copy(&mut local.verifying_reader(&plain[..]), &mut io::sink());
+        read.map_err(|_| format!("{name} is damaged: its checksum is another"))?;
+        files.push((name, plain));
+    }
+    Ok(files)
+}
+
+fn too_long(name: &str) -> String {
+    format!("{name} is longer than 64 MB, or up to there all channels are longer than 256 MB")
+}
+
+fn too_many() -> String {
+    format!("there are more than {MOST_FILES} channels in it")
 }

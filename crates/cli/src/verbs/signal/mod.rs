@@ -6,12 +6,11 @@ pub(super) mod mme;
 pub(super) mod object;
 mod read;
 pub(super) mod words;
-mod zip;
 
 use std::path::PathBuf;
 
 use clap::Args;
-use dashpot_analysis::measures::STANDARD_GRAVITY;
+use dashpot_analysis::{Limit, measures::STANDARD_GRAVITY};
 use dashpot_network::parameters::Dimension;
 use dashpot_signal::{
     Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Place, Removal, Settings,
@@ -19,7 +18,7 @@ use dashpot_signal::{
 use serde::Serialize;
 
 use self::{
-    limits::{SignalLimit, Verdict},
+    limits::Verdict,
     read::{MeasuredChannel, Record},
 };
 use crate::{
@@ -140,7 +139,7 @@ struct Signal {
 /// What some files say.
 struct Signals {
     all: Vec<Signal>,
-    limits: Vec<SignalLimit>,
+    limits: Vec<Limit>,
     /// Along which axes bodies may move.
     guided: Vec<Axis>,
     notes: Vec<String>,
@@ -205,7 +204,7 @@ impl SignalArguments {
     fn settings(&self, record: &Record) -> Settings {
         let window = (self.from.is_some() || self.to.is_some())
             .then(|| (self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)));
-        let padding = Padding::ALL.into_iter().find(|own| own.word() == self.padding);
+        let padding = Padding::ALL.into_iter().find(|own| own.words()[0] == self.padding);
         Settings {
             is_inverted: self.invert,
             rate: self.rate.filter(|_| record.has_times),
@@ -225,8 +224,7 @@ impl SignalArguments {
 
 /// Reads files.
 pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let limits: Vec<SignalLimit> =
-        arguments.limit.iter().flat_map(|own| own.list.clone()).collect();
+    let limits: Vec<Limit> = arguments.limit.iter().flat_map(|own| own.0.clone()).collect();
     if arguments.enforce && limits.is_empty() {
         return Err(CliError::NoLimits);
     }

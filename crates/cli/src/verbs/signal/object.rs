@@ -49,7 +49,7 @@ fn channel(signal: &Signal) -> impl Serialize {
         cfc: settings.cfc.map(Cfc::class),
         filter: settings.cfc.map(|cfc| object! {
             class: cfc.class(),
-            padding: settings.padding.word(),
+            padding: settings.padding.words()[0],
             design_frequency: cfc.design_frequency(),
             gain_at_class: cfc.gain(cfc.class(), own.rate()),
             gain_at_design_frequency: cfc.gain(cfc.design_frequency(), own.rate()),
@@ -123,7 +123,7 @@ fn repeats(group: &Group<'_>) -> impl Serialize + use<> {
 }
 
 fn verdict(own: Verdict<'_>) -> impl Serialize {
-    let limit = &own.limit.limit;
+    let limit = own.limit;
     let bound = limit.bound;
     let dimension = own.known.measure.dimension(own.signal.analysis.channel.dimension());
     object! {

@@ -18,6 +18,8 @@ use crate::{
 const DIGITS: usize = 4;
 /// Noise below this part of the peak is not mentioned.
 const UNSEEN: f64 = 1e-5;
+/// Rounding of a bound, in parts of its last digit.
+const ROUNDING: f64 = 1e-6;
 /// Digits of errors.
 const ERROR_DIGITS: usize = 1;
 
@@ -150,7 +152,7 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
                 decibels(cfc.class()),
                 decibels(cfc.design_frequency()),
                 quantity(own.rate(), "Hz", DIGITS),
-                own.settings.padding
+                own.settings.padding.words()[0]
             )
         }
     };
@@ -273,7 +275,7 @@ pub(super) fn judged(own: &Verdict<'_>) -> (&'static str, String) {
         Judgement::Fail => "FAIL",
         Judgement::Undecided(_) => "UNDECIDED",
     };
-    let limit = &own.limit.limit;
+    let limit = own.limit;
     let level = limit.bound.level();
     let unit = unit_of(own.known.measure, level, own.signal.analysis.channel.dimension());
     let found = |known: &Reading| match (known.value, known.truth) {
@@ -311,8 +313,8 @@ pub(in crate::verbs) fn cautious(bound: f64, truth: Truth, unit: &Unit) -> f64 {
     let step = 10_f64.powf(shown.abs().log10().floor() + 1.0 - DIGITS as f64);
     let rounded = match truth {
         Truth::Within => return bound,
-        Truth::AtLeast => (shown / step).floor(),
-        Truth::AtMost => (shown / step).ceil(),
+        Truth::AtLeast => (shown / step + ROUNDING).floor(),
+        Truth::AtMost => (shown / step - ROUNDING).ceil(),
     };
     if shown == 0.0 { bound } else { bound * (rounded * step / shown) }
 }
