@@ -87,7 +87,7 @@ pub struct Odds {
 pub struct ScatterReport {
     /// The numbers with scatter, in the order of the scene.
     pub sources: Vec<ScatterSource>,
-    /// The part of the designs that has to keep a limit for it to pass, from 0 to 1.
+    /// The probability with which a limit has to be kept for it to pass, from 0 to 1: no part of its range may be less.
     pub wanted: f64,
     /// How many designs were drawn.
     pub designs: usize,
@@ -201,6 +201,18 @@ impl Odds {
         };
         (wilson(self.kept, -1.0), wilson(self.designs - self.exceeded, 1.0))
     }
+
+    /// How many of so many designs have to keep it so that the whole [range](Self::range) of the probability is `wanted`,
+    /// from 0 to 1, or more; `None` where all of them are too few.
+    pub fn least_kept(wanted: f64, designs: usize) -> Option<usize> {
+        let odds = |kept: usize| Self { kept, exceeded: designs - kept, designs };
+        (0..=designs).rev().take_while(|kept| odds(*kept).range().0 >= wanted).last()
+    }
+
+    /// The least number of designs of which that can be shown of a `wanted` probability below 1.
+    pub fn least_designs(wanted: f64) -> f64 {
+        (wanted * WITHIN * WITHIN / (1.0 - wanted)).ceil()
+    }
 }
 
 impl ScatterReport {
@@ -308,5 +320,17 @@ mod tests {
         assert!((high - low - 2.0 * half / (1.0 + square / 100.0)).abs() < 1e-14);
         assert!((low + high - 1.0).abs() < 1e-14);
         assert!(of(50, 40).1 > high && (of(50, 40).0 - low).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_probability_is_shown_by_the_lower_end_of_its_range() {
+        for (wanted, designs) in [(0.95, 500), (0.8, 400), (0.99, 1000)] {
+            let least = Odds::least_kept(wanted, designs).unwrap();
+            let low = |kept: usize| Odds { kept, exceeded: designs - kept, designs }.range().0;
+            assert!(low(least) >= wanted && low(least - 1) < wanted, "{least} of {designs}");
+        }
+        // All of n end at n/(n + z²).
+        assert!((Odds::least_designs(0.95) - 73.0).abs() < 1e-9);
+        assert_eq!((Odds::least_kept(0.95, 73), Odds::least_kept(0.95, 72)), (Some(73), None));
     }
 }

@@ -112,7 +112,7 @@ impl RunReport {
                 let doubts = self.warnings.iter().filter_map(|own| own.doubt(limit, false));
                 let doubt = Reason::first(doubts);
                 let is_too_few = |own: &ScatterReport| {
-                    chance.is_some_and(|of| of.odds.share() * own.within() < own.wanted)
+                    chance.is_some_and(|of| of.odds.range().0 * own.within() < own.wanted)
                 };
                 let is_rare = self.scatter.as_deref().is_some_and(is_too_few);
                 judgement.doubted(doubt.or(is_rare.then_some(Reason::Scatter)))

@@ -68,6 +68,9 @@ pub(crate) enum CliError {
     /// Two limits of which no value keeps both.
     #[error("no value keeps both limits, `{}` {} and {}", .limits[0].key, stated(&.limits[0], None), stated(&.limits[1], None))]
     Contradiction { limits: Box<[Limit; 2]> },
+    /// So few scattered designs show no such probability, even if all of them keep everything.
+    #[error("that probability takes {least} scattered designs or more to show")]
+    TooFewScattered { least: f64 },
     /// Limits are to be enforced, and there is none.
     #[error("`--enforce` has no limit to enforce")]
     NoLimits,

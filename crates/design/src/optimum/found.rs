@@ -1,6 +1,6 @@
 //! What a search has found.
 
-use dashpot_analysis::{RunReport, Unevaluated};
+use dashpot_analysis::{Odds, RunReport, Unevaluated};
 use serde::Serialize;
 
 use super::{Required, search::SAME};
@@ -99,9 +99,9 @@ pub struct Looked {
 /// What a sample of scattered designs keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Borne {
-    /// The part of them that has to keep everything.
+    /// The probability with which everything has to be kept.
     pub wanted: f64,
-    /// Those that do …
+    /// Those that keep it …
     pub kept: usize,
     /// … of so many.
     pub designs: usize,
@@ -112,14 +112,19 @@ pub struct Borne {
 }
 
 impl Borne {
-    /// Whether enough of them keep everything.
+    /// Whether so many of them keep everything that the probability is what is wanted, however the sample was drawn.
     pub fn is_enough(&self) -> bool {
-        self.kept as f64 >= self.wanted * self.designs as f64
+        self.least().is_some_and(|least| self.kept >= least)
     }
 
-    /// Whether enough of them may keep everything if those do that could not be evaluated.
+    /// Whether so many may keep everything if those do that could not be evaluated.
     pub fn may_be_enough(&self) -> bool {
-        (self.kept + self.unevaluated) as f64 >= self.wanted * self.designs as f64
+        self.least().is_some_and(|least| self.kept + self.unevaluated >= least)
+    }
+
+    /// How many of them have to keep everything, as by [`Odds::least_kept`].
+    pub fn least(&self) -> Option<usize> {
+        Odds::least_kept(self.wanted, self.designs)
     }
 }
 

@@ -116,6 +116,10 @@ pub enum DesignError {
     #[error("their bounds allow sums from {low} to {high} in SI units alone")]
     #[expect(missing_docs, reason = "the message says what the fields are")]
     NoSum { low: f64, high: f64 },
+    /// So few scattered designs show no such probability.
+    #[error("{designs} scattered designs cannot show that probability: {least} that all keep everything are the least")]
+    #[expect(missing_docs, reason = "the message says what the fields are")]
+    TooFew { designs: usize, least: f64 },
     /// No design could be evaluated.
     #[error("no design between the bounds can be evaluated: {}", first(.0))]
     Nothing(Unevaluated),

@@ -1,6 +1,6 @@
 //! Designs that bear the scatter of their numbers: limits are drawn in until enough of a sample keeps them.
 
-use dashpot_analysis::sweep::ScenePoint;
+use dashpot_analysis::{Odds, sweep::ScenePoint};
 
 use super::{
     Borne, Design, DesignError, Effort, Problem, Searched,
@@ -24,13 +24,14 @@ pub type PoseScattered<'p> = dyn Fn(usize, &[f64]) -> Result<Vec<ScenePoint>, St
 /// Scatter that a design has to bear.
 #[derive(Clone, Copy)]
 pub struct Scattered<'p> {
-    /// The part of the designs that has to keep everything, between 0 and 1.
-    pub share: f64,
+    /// The probability with which everything has to be kept, between 0 and 1.
+    pub probability: f64,
     /// What poses them. The sample of each test has the same scattered numbers whenever it is asked for.
     pub pose: &'p PoseScattered<'p>,
 }
 
-/// The best numbers of which this part of scattered designs keeps everything in all tests. The limits are drawn in by a
+/// The best numbers with which everything is kept in all tests with this probability, or more, as far as a sample of
+/// scattered designs shows that. The limits are drawn in by a
 /// number of standard deviations of what the sample makes of each of them, the same for all, that is sought.
 ///
 /// What was borne is [told](Design::borne); where no search bears enough, the nearest to it is given.
@@ -45,8 +46,8 @@ pub fn robust(
 ) -> Result<Design, DesignError> {
     let search = Search::of(problem, None, effort)?;
     let known = search.known(&problem.begin())?;
-    let least = search.no_slack();
-    let (mut deviations, mut slack) = (0.0, least.clone());
+    let none = search.no_slack();
+    let (mut deviations, mut slack) = (0.0, none.clone());
     // By how many standard deviations limits are drawn in, and what too much of the sample exceeds then, where too few
     // designs keep everything, and where enough do.
     let (mut few, mut enough): ([f64; 2], Option<[f64; 2]>) = ([0.0; 2], None);
@@ -59,7 +60,12 @@ pub fn robust(
         let sample = search.sample(&own, scattered)?;
         let (kept, designs) = (sample.kept(0.0), sample.excesses.len());
         let unevaluated = sample.unevaluated;
-        let borne = Borne { wanted: scattered.share, kept, designs, unevaluated, deviations };
+        let wanted = scattered.probability;
+        let borne = Borne { wanted, kept, designs, unevaluated, deviations };
+        let Some(least) = borne.least() else {
+            return Err(DesignError::TooFew { designs, least: Odds::least_designs(wanted) });
+        };
+        let share = least as f64 / designs as f64;
         let is_feasible = own.is_feasible;
         let is_better = |before: &Borne| match (borne.is_enough(), before.is_enough()) {
             (true, true) => deviations < before.deviations,
@@ -69,7 +75,7 @@ pub fn robust(
         if found.as_ref().and_then(|own| own.borne).is_none_or(|own| is_better(&own)) {
             found = Some(Design { borne: Some(borne), ..own });
         }
-        let exceeded = sample.exceeded(scattered.share);
+        let exceeded = sample.exceeded(share);
         if borne.is_enough() {
             enough = Some([deviations, exceeded]);
         } else if is_feasible {
@@ -81,7 +87,7 @@ pub fn robust(
         deviations = match (next, enough) {
             (Some(next), Some([most, _])) if most - next <= NEAR * most => break,
             (Some(next), _) => next,
-            (None, _) => sample.deviations(scattered.share).max(MORE * few[0]),
+            (None, _) => sample.deviations(share).max(MORE * few[0]),
         };
         if deviations > MOST {
             break;
@@ -90,8 +96,8 @@ pub fn robust(
         if enough.is_none() {
             spreads.clone_from(&sample.spreads);
         }
-        let drawn_in = spreads.iter().zip(&least);
-        slack = drawn_in.map(|(own, least): (&f64, &f64)| (deviations * own).max(*least)).collect();
+        let drawn_in = spreads.iter().zip(&none);
+        slack = drawn_in.map(|(own, none): (&f64, &f64)| (deviations * own).max(*none)).collect();
     }
     found.ok_or_else(|| DesignError::NotPosed("no sample of it can be solved".to_owned()))
 }

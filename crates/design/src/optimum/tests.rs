@@ -1,7 +1,7 @@
 use std::f64::consts::SQRT_2;
 
 use dashpot_analysis::{
-    Bound, Limit, SolveSettings,
+    Bound, Limit, Odds, SolveSettings,
     sweep::{PoseAt, ScenePoint},
 };
 use dashpot_network::{Model, Network, Node, dashpot, spring};
@@ -252,9 +252,12 @@ fn a_robust_design_keeps_its_share_of_a_normal_stiffness() {
     let aim = Aim::Measure("head.peak-acceleration".to_owned());
     let tests: [&PoseAt<'_>; 1] = [&pose];
     let problem = Problem { variables: &variables, totals: &[], aim: &aim, tests: &tests };
-    for (share, deviations) in [(0.95, 1.644_854), (0.8, 0.841_621)] {
-        let own =
-            robust(&problem, Scattered { share, pose: &scattered }, Effort::default()).unwrap();
+    for probability in [0.95, 0.8] {
+        let scattered = Scattered { probability, pose: &scattered };
+        let own = robust(&problem, scattered, Effort::default()).unwrap();
+        // The sample shows no more than its own part, the whole range of which is that probability or more.
+        let kept = Odds::least_kept(probability, 400).unwrap() as f64 / 400.0;
+        let deviations = dashpot_numerics::normal::quantile(kept);
         let right = (FORCE / SPEED).powi(2) / (MEAN + deviations * DEVIATION);
         let borne = own.borne.unwrap();
         assert!(borne.is_enough() && own.is_feasible, "{borne:?}");

@@ -16,7 +16,7 @@ use std::{num::NonZero, sync::atomic::AtomicUsize, thread::available_parallelism
 
 use clap::Args;
 use dashpot_analysis::{
-    Judgement, RunReport,
+    Judgement, Odds, RunReport,
     sweep::{PoseAt, columns},
 };
 use dashpot_design::optimum::{
@@ -36,7 +36,7 @@ use super::run::{
     scatter::{self, ScatterArguments},
 };
 use crate::{
-    args::{LimitArguments, SceneArguments, method_names, probability},
+    args::{LimitArguments, NO_SCATTER, SceneArguments, method_names, probability, refuse},
     counts::{DESIGNS, FRONT_POINTS, SCATTERED_SCENES},
     error::{CliError, Status},
     input::Input,
@@ -236,11 +236,19 @@ fn check_posed(arguments: &DesignArguments, posing: &Posing<'_>) -> Result<(), C
     if has_none && matches!(asked.least, Least::Number(_)) && asked.and.is_none() {
         return Err(CliError::NothingToKeep { name: asked.least.name(asked).to_owned() });
     }
-    if arguments.robust.is_some() && !posing.has_scatter() {
-        let reason = "no number of the scene has scatter: write one with its standard deviation, such as \"20 ± 2 MN/m\"";
-        return Err(CliError::setting("--robust", reason));
+    if !posing.has_scatter() {
+        refuse(&["--robust", "--scatter", "--seed"], NO_SCATTER)?;
     }
-    Ok(())
+    if asked.and.is_none() {
+        refuse(&["--points"], "it is of a front of two aims, `--least` and `--and`")?;
+    }
+    if has_none && arguments.enforce {
+        return Err(CliError::NoLimits);
+    }
+    match arguments.robust.map(Odds::least_designs) {
+        Some(least) if least > arguments.scatter as f64 => Err(CliError::TooFewScattered { least }),
+        _ => Ok(()),
+    }
 }
 
 /// Whether the scene of each test has the measures that are made least.
@@ -272,10 +280,10 @@ fn searched(
 ) -> Result<Design, DesignError> {
     let asked = posing.asked;
     with_problem(posing, choice, |problem| match arguments.robust {
-        Some(share) => {
+        Some(probability) => {
             let pose =
                 |test: usize, values: &[f64]| posing.scattered(choice, &asked.tests[test], values);
-            robust(problem, Scattered { share, pose: &pose }, arguments.effort())
+            robust(problem, Scattered { probability, pose: &pose }, arguments.effort())
         }
         None => search(problem, arguments.effort()),
     })

@@ -9,7 +9,7 @@ use dashpot_analysis::{
     sweep::{Grid, ScenePoint, SweepError},
 };
 use dashpot_plot::Table;
-use dashpot_scene::{Scene, Tunables};
+use dashpot_scene::{Scene, TunableFault, Tunables};
 use dashpot_units::{Dimension, si_unit, significant};
 use serde::Serialize;
 
@@ -56,8 +56,16 @@ pub(super) fn gradient(
     terminal: Terminal,
 ) -> Result<Status, CliError> {
     let threads = arguments.threads();
-    let found = |name: &String| varied.tunables.find(name.trim()).map_err(CliError::Gradient);
-    let places = arguments.gradient.iter().map(found).collect::<Result<Vec<usize>, _>>()?;
+    let names = &arguments.gradient;
+    let mut places = Vec::with_capacity(names.len());
+    for name in names {
+        let place = varied.tunables.find(name.trim()).map_err(CliError::Gradient)?;
+        if let Some(before) = places.iter().position(|other| *other == place) {
+            let (first, second) = (names[before].clone(), name.clone());
+            return Err(CliError::Gradient(TunableFault::Twice { first, second }));
+        }
+        places.push(place);
+    }
     let is_set = |(name, _): &&(String, String)| {
         varied.tunables.find(name).is_ok_and(|at| places.contains(&at))
     };
