@@ -214,7 +214,8 @@ impl Steep {
     }
 
     /// Height of the ripples in the force on what strikes the layers, in parts of its largest, at the time `after` \[s\]:
-    /// that of all steps that have come back from the other end until then.
+    /// that of all steps that have come back from the other end until then. The largest force is no less than a step with
+    /// what its front exceeds it by.
     fn ripples(&self, after: f64) -> f64 {
         let there_and_back = 2.0 * self.passage * self.segments as f64;
         let height = |echo: f64| {
@@ -223,7 +224,8 @@ impl Steep {
             (spread * (part.powi(-2) - 1.0).powf(-0.75) * part).min(HIGHEST)
         };
         let echoes = (1_u32..).map(f64::from).take_while(|echo| echo * there_and_back < after);
-        echoes.take(MOST_ECHOES).map(height).sum::<f64>().min(HIGHEST)
+        let all: f64 = echoes.take(MOST_ECHOES).map(height).sum();
+        (all / (1.0 + self.excess.unwrap_or(0.0))).min(HIGHEST)
     }
 
     /// What the error of a measure is at least.

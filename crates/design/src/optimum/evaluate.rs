@@ -13,8 +13,8 @@ const FINE: [f64; 2] = [1e-9, 1e-8];
 /// … else this one, where a law makes finer ones follow roundings.
 const COARSE: f64 = 1e-7;
 /// Work of a design in parts of that of the first one at the coarse tolerance, and what is always granted.
-const MOST_WORK: u64 = 20;
-const LEAST_WORK: u64 = 1_000_000;
+const MOST_WORK: u64 = 4;
+const LEAST_WORK: u64 = 200_000;
 
 /// What has to be kept by a design.
 #[derive(Debug, Clone, PartialEq)]
