@@ -200,7 +200,7 @@ fn a_law_that_fine_tolerances_do_not_get_through_is_designed_in_seconds() {
     // Its force is as steep as it likes where the rate is zero.
     let pad = "[nodes]\nhead = { mass = \"5 kg\", velocity = \"4 m/s\" }\n[elements]\n\
                pad = { between = [\"head\", \"ground\"], series = [{ rate-spring = { force = \"2 kN\", at = \"10 mm\", \
-               gain = 0.2, reference-rate = \"0.1 1/s\" } }, { spring = \"80 kN/m\" }] }\n[effects]\n\
+               gain = 0.2, reference-rate = \"0.1 m/s\" } }, { spring = \"80 kN/m\" }] }\n[effects]\n\
                separation.pad = {}\n[run]\nduration = \"40 ms\"\n";
     let (_folder, path) = written(pad);
     let begin = std::time::Instant::now();

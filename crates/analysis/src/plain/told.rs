@@ -155,7 +155,7 @@ impl Told {
             measure_report(entry, reading, error, scene.settings.accuracy.of(&entry.key))
         };
         let mut reports: Vec<MeasureReport> = (0..scene.selected.len()).map(report).collect();
-        settle_zeros(&mut reports, self.size_of_work, 0.0);
+        settle_zeros(&mut reports, self.size_of_work, self.rtol);
         reports
     }
 
