@@ -180,6 +180,45 @@ fn a_round_body_in_by_more_than_its_radius_is_not_evaluated() {
 }
 
 #[test]
+fn a_run_that_ends_while_it_falls_has_one_cause_in_every_study() {
+    let fall = "[nodes]\nhead = { mass = \"5 kg\", drop = \"1 m\" }\n[elements]\n\
+                pad = { between = [\"head\", \"ground\"], spring = \"80 kN/m\" }\n[effects]\nseparation.pad = {}\n\
+                gravity = {}\n[run]\nduration = \"40 ms\"\n";
+    let (_folder, path) = written(fall);
+    let limit = ["--limit", "head.peak-acceleration<=50 g"];
+    let vary = "pad.spring=40..100 kN/m";
+    let least = ["--least", "pad.peak-deformation", "--sample", "10"];
+    let told = err(&run(&[&["design", &path, "--vary", vary], &limit[..], &least[..]].concat()));
+    assert!(told.contains("make `duration` longer") && !told.contains("never"), "{told}");
+    let vary = format!("{vary},3");
+    let own = json(&[&["sweep", &path, "--vary", &vary, "--json"], &limit[..]].concat());
+    assert_eq!(own["unevaluated"]["causes"][0]["cause"]["kind"], "cut", "{own}");
+}
+
+#[test]
+fn a_law_that_fine_tolerances_do_not_get_through_is_designed_in_seconds() {
+    // Its force is as steep as it likes where the rate is zero.
+    let pad = "[nodes]\nhead = { mass = \"5 kg\", velocity = \"4 m/s\" }\n[elements]\n\
+               pad = { between = [\"head\", \"ground\"], series = [{ rate-spring = { force = \"2 kN\", at = \"10 mm\", \
+               gain = 0.2, reference-rate = \"0.1 m/s\" } }, { spring = \"80 kN/m\" }] }\n[effects]\n\
+               separation.pad = {}\n[run]\nduration = \"40 ms\"\n";
+    let (_folder, path) = written(pad);
+    let begin = std::time::Instant::now();
+    let of = [
+        "design",
+        &path,
+        "--vary",
+        "head.mass=1..10 kg",
+        "--limit",
+        "head.peak-acceleration<=50 g",
+    ];
+    let of = [&of[..], &["--least", "pad.peak-deformation", "--sample", "20"]].concat();
+    let output = run(&of);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
+}
+
+#[test]
 fn what_rounding_leaves_of_zero_is_zero_in_every_study() {
     // A spring gives back all that it takes up.
     let pad = |spring: &str| {

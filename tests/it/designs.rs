@@ -101,7 +101,7 @@ fn a_remark_names_the_designs_that_it_is_of() {
     let slow = file(&folder, "slow.toml", &slow).to_str().unwrap().to_owned();
     // 4 kg g over 8 cm is 3.138 J.
     let told =
-        "gravity is off: if the blow goes down, its weight adds up to 3.14 J over the thickness";
+        "gravity is off: if it moves downwards, its weight does work of 3.14 J over the thickness";
     let of_both = words(&err(&run(&["run", &soft, &slow])));
     assert!(of_both.contains(&format!("soft: node `head`: {told}, 6.3 % of the")), "{of_both}");
     assert!(of_both.contains(&format!("slow: node `head`: {told}, 39.2 % of the")), "{of_both}");

@@ -51,13 +51,11 @@ pub struct FoundDuration {
 /// - every contact with an impactor has ended, as far as there has been one;
 /// - no load and no motion changes its form any more;
 /// - nothing that has borne no force yet is about to meet something;
-/// - no peak of a force, a deformation or an acceleration anywhere in the network is larger than in a
-///   run half as long, nor that of the speed of a mass that elements still push; deformations
-///   count where there is still a force.
+/// - no peak of a force, a deformation or an acceleration anywhere in the network is larger than in a run half as long,
+///   nor that of the speed of a mass that elements still push; deformations count where there is still a force.
 ///
 /// The length is the fall and 1.25 times what passes from there to the last of the ends and the peaks, rounded up to
-/// two digits. Where a
-/// contact lasts, or nothing strikes, the peaks must have been the same since an eighth of the run,
+/// two digits. Where a contact lasts, or nothing strikes, the peaks must have been the same since an eighth of the run,
 /// which is then taken whole. A run that a condition stops needs to be no longer than to there.
 ///
 /// # Errors
@@ -121,11 +119,7 @@ fn trial(network: &Network, settings: &SolveSettings, duration: f64) -> SolveSet
     }
 }
 
-/// When the last of what is dropped arrives \[s\].
-///
-/// # Errors
-///
-/// What is wrong with the network.
+/// When the last of what is dropped arrives \[s\]. Errors: what is wrong with the network.
 fn fall(network: &Network, at_most: f64) -> Result<f64, RunError> {
     let nodes = network.compile(at_most)?.nodes;
     Ok(nodes.iter().filter(|node| node.is_impactor()).map(|node| node.fall).fold(0.0, f64::max))
@@ -232,7 +226,6 @@ fn is_closing(report: &RunReport) -> bool {
     })
 }
 
-/// What drives the network.
 fn driving(network: &Network) -> impl Iterator<Item = &Waveform> {
     let motions = network.nodes().filter_map(|(_, node)| match &node.support {
         Support::Prescribed(motion) => Some(motion),

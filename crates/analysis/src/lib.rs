@@ -1,5 +1,4 @@
-//! From trajectories to numbers: measures, the energy ledger, their errors, and the report of a
-//! run.
+//! From trajectories to numbers: measures, the energy ledger, their errors, and the report of a run.
 //!
 //! [`Solve`] compiles a network, integrates it as often as its errors ask for, and returns a
 //! [`RunReport`]. All measures are read off the continuous solution, never off samples.

@@ -11,8 +11,7 @@ use crate::RunError;
 /// place and its factors within a band.
 const UNKNOWN_BYTES: u64 = 1000;
 
-/// Unknowns beyond which a stepping method keeps a part of the solution only. Below, nothing is left
-/// out.
+/// Unknowns beyond which a stepping method keeps a part of the solution only. Below, nothing is left out.
 pub(crate) const LARGE: usize = 1000;
 
 /// Whether only a part of the solutions of a network is kept. What switches is kept as a whole.
@@ -20,12 +19,8 @@ pub(crate) fn is_large(assembly: &Assembly) -> bool {
     assembly.switching.is_none() && assembly.system.len() > LARGE
 }
 
-/// Refuses a network that takes more memory than a run may, with what is made of its parts and what solving
-/// takes.
-///
-/// # Errors
-///
-/// [`RunError::TooMuchMemory`].
+/// Refuses a network that takes more memory than a run may, with what is made of its parts and what solving takes.
+/// Errors: [`RunError::TooMuchMemory`].
 pub(crate) fn foresee(assembly: &Assembly) -> Result<(), RunError> {
     refuse_beyond(MOST_BYTES, assembly.primitives.len() as u64, assembly.system.len() as u64)
 }

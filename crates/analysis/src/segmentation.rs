@@ -10,8 +10,13 @@
 //! order at all, so that two numbers of segments may agree by chance: a third number is solved, forces are known to
 //! the height of the ripples, and the times at which they let go to the width of the front. A force that comes within
 //! the ripples of zero may have let go there: what that makes of the measures is their error as well.
+//!
+//! How high they are follows from the dispersion of the chain, `ω = (2/Δt) sin(k h/2)` with the passage `Δt` of a wave
+//! through a segment of length `h`: by the method of stationary phase a step that has been travelling for `T` is followed
+//! at the time `t` by a ripple of `√(Δt/(π T)) ((t/T)² − 1)^(−3/4)` of its velocity, and `T/t` of that in the force on a
+//! face that it meets. It falls with the root of the number of segments.
 
-use std::{sync::Arc, time::Instant};
+use std::{f64::consts::PI, sync::Arc, time::Instant};
 
 use dashpot_dae::Observer;
 use dashpot_network::{
@@ -21,14 +26,14 @@ use dashpot_network::{
 };
 
 use crate::{
-    MeasureReport, RunError, RunReport, Segmentation, SolveSettings, Warning,
+    Choice, MeasureReport, RunError, RunReport, Segmentation, SolveSettings, Warning,
     impact::interval::front,
     measures::{
         ContactTime, PeakAcceleration, PeakForce, PeakStrain, PeakStress, TransmittedForce,
         selection::select,
     },
     run::{solve_assembly, words},
-    solution::undecided_releases,
+    solution::releases_in_ripples,
 };
 
 /// What the error is taken as at least, in parts of the difference.
@@ -36,19 +41,13 @@ const SAFETY: f64 = 4.0;
 /// The parts of the segments that a run is compared with, the second one where a front is steep.
 const PARTS: [f64; 2] = [0.5, 2.0 / 3.0];
 
-/// Height of the ripples in which a release may hide, in parts of the largest force and of the root of the passage of a
-/// wave through a segment over the length of the impact: about half of `√(Δt/(π t))`, that of a step; found on rods of 10
-/// to 99 segments beside St Venant's solution.
-const RIPPLE: f64 = 0.25;
-/// The height at most.
-const HIGHEST: f64 = 0.5;
+/// By how much a front exceeds its step at most, where its ripples begin: the largest integral of Airy's function.
+const HIGHEST: f64 = 0.275;
+/// So many steps are looked at.
+const MOST_ECHOES: usize = 1000;
 
-/// The run with the errors of its measures widened by what the segments of its layers make of them:
-/// one further solution where there are any, and errors are wanted; two where a front is steep.
-///
-/// # Errors
-///
-/// As [`solve_assembly`].
+/// The run with the errors of its measures widened by what the segments of its layers make of them: one further
+/// solution where there are any, and errors are wanted; two where a front is steep. Errors: as [`solve_assembly`].
 pub(crate) fn with_segments(
     network: &Network,
     mut report: RunReport,
@@ -71,7 +70,13 @@ pub(crate) fn with_segments(
             continue;
         }
         let assembly = Arc::new(cut.network.compile(settings.duration)?);
-        let own = SolveSettings { rtol: report.solver.rtol, estimate: false, ..settings.clone() };
+        // A method with steps is as good for the others, and they tell of the segments alone.
+        let method = match report.solver.rtol {
+            Some(_) => Choice::named(report.solver.method)?,
+            None => settings.method.clone(),
+        };
+        let (rtol, estimate) = (report.solver.rtol, false);
+        let own = SolveSettings { method, rtol, estimate, ..settings.clone() };
         let other = solve_assembly(&assembly, &words(&cut.network), &own, observer)?;
         told.get_or_insert((cut.stated, counts));
         others.push((safety(&cut), other));
@@ -130,10 +135,10 @@ fn let_go(
     }
     let solution = report.solution();
     let impact = solution.scene_impact();
-    let height = |own: &Steep| RIPPLE * (own.passage / (impact.end - impact.start)).sqrt();
-    let level = steep.iter().map(height).fold(0.0, f64::max).min(HIGHEST);
+    let height = |own: &Steep| own.ripples(impact.end - impact.start);
+    let level = steep.iter().map(height).fold(0.0, f64::max);
     let make_others = || others.iter().map(|own| own.1.solution()).collect::<Vec<_>>();
-    let ends = undecided_releases(&solution, &make_others, level);
+    let ends = releases_in_ripples(&solution, &make_others, level);
     let earlier = report.solution().ending(ends);
     let selected = select(&report.assembly, &settings.measures, &settings.limits)?;
     let changes = selected.iter().zip(&report.measures).map(|(entry, own)| {
@@ -185,6 +190,8 @@ struct Steep {
     excess: Option<f64>,
     /// Time in which a wave crosses a segment \[s\].
     passage: f64,
+    /// How many segments there are.
+    segments: usize,
 }
 
 impl Steep {
@@ -198,10 +205,27 @@ impl Steep {
                 }
                 _ => return None,
             };
-            let passage = report.assembly.connection(&front.element)?.passage;
-            Some(Self { names: [front.element.clone(), front.node.clone()], excess, passage })
+            let element = report.assembly.connection(&front.element)?;
+            let (passage, segments) = (element.passage, element.segments.len());
+            let names = [front.element.clone(), front.node.clone()];
+            Some(Self { names, excess, passage, segments })
         });
         steep.collect()
+    }
+
+    /// Height of the ripples in the force on what strikes the layers, in parts of its largest, at the time `after` \[s\]:
+    /// that of all steps that have come back from the other end until then. The largest force is no less than a step with
+    /// what its front exceeds it by.
+    fn ripples(&self, after: f64) -> f64 {
+        let there_and_back = 2.0 * self.passage * self.segments as f64;
+        let height = |echo: f64| {
+            let (travelled, part) = (echo * there_and_back, echo * there_and_back / after);
+            let spread = (self.passage / (PI * travelled)).sqrt();
+            (spread * (part.powi(-2) - 1.0).powf(-0.75) * part).min(HIGHEST)
+        };
+        let echoes = (1_u32..).map(f64::from).take_while(|echo| echo * there_and_back < after);
+        let all: f64 = echoes.take(MOST_ECHOES).map(height).sum();
+        (all / (1.0 + self.excess.unwrap_or(0.0))).min(HIGHEST)
     }
 
     /// What the error of a measure is at least.

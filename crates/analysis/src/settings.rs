@@ -15,9 +15,8 @@ pub struct SolveSettings {
     pub duration: f64,
     /// Whether the length was found for this network, so that another one has another.
     pub is_duration_found: bool,
-    /// The method's own relative tolerance, that of the finest of four solutions where errors are
-    /// estimated, from 1e-13 to 1e-3 (to 1e-1 without estimate); `None` finds one that gives the
-    /// accuracy wanted.
+    /// The method's own relative tolerance, that of the finest of four solutions where errors are estimated, from 1e-13
+    /// to 1e-3 (to 1e-1 without estimate); `None` finds one that gives the accuracy wanted.
     pub rtol: Option<f64>,
     /// The accuracy wanted of the measures.
     pub accuracy: Accuracy,

@@ -47,8 +47,7 @@ pub trait Solve {
         self.solve_watched(settings, &mut Silent)
     }
 
-    /// Compiles a network, integrates it, and reports; `observer` is told of the progress, and may end
-    /// the run.
+    /// Compiles a network, integrates it, and reports; `observer` is told of the progress, and may end the run.
     ///
     /// A method that bounds its own error solves once. The others solve at four tolerances a factor √10
     /// apart and take the errors of the finest solution from the differences; as long as an error
@@ -77,9 +76,8 @@ impl Solve for Network {
     }
 }
 
-/// Solves a network that is compiled already; where the accuracy has a bound for what may be left
-/// out, without what is shown to matter less. Otherwise as [`solve_assembly`], without any further
-/// solution.
+/// Solves a network that is compiled already; where the accuracy has a bound for what may be left out, without what is
+/// shown to matter less. Otherwise as [`solve_assembly`], without any further solution.
 ///
 /// The errors of measures include what was left out, and what the segments of layers make of them:
 /// the latter takes one further solution, or two where a front is as steep as the segments.

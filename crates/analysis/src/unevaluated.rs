@@ -8,7 +8,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use crate::{MeasureReport, Note, RunError};
+use crate::{Note, RunError, RunReport, Warning};
 
 /// What kind of cause it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,8 +68,15 @@ impl Cause {
         Self { kind: CauseKind::Scene, of: String::new(), message }
     }
 
-    /// The measure with this key has no value.
-    pub fn no_value(key: &str, measure: Option<&MeasureReport>) -> Self {
+    /// The measure with this key has no value, in this run where there is one.
+    pub fn no_value(key: &str, run: Option<&RunReport>) -> Self {
+        let is_short = |run: &RunReport| {
+            run.warnings.iter().any(|own| matches!(own, Warning::StillFalling { .. }))
+        };
+        if run.is_some_and(is_short) {
+            return Self::cut(key);
+        }
+        let measure = run.and_then(|run| run.measure(key));
         let message =
             measure.map_or("it is not reported".to_owned(), |own| Note::joined(&own.notes));
         Self { kind: CauseKind::NoValue, of: key.to_owned(), message }

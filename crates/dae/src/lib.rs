@@ -1,9 +1,8 @@
 //! The narrow waist of `dashpot`: linear differential–algebraic systems in, trajectories out.
 //!
-//! A [`System`] is `M ẏ = J y + B w(t)` with `M = diag(1…1, 0…0)`, dimensionless, with named
-//! unknowns and named outputs. A [`Method`] integrates it to a [`Trajectory`], which yields every
-//! output as a [`Signal`]: a piecewise polynomial in SI units whose extrema, crossings and
-//! integrals are those of the continuous solution, not of samples.
+//! A [`System`] is `M ẏ = J y + B w(t)` with `M = diag(1…1, 0…0)`, dimensionless, with named unknowns and named
+//! outputs. A [`Method`] integrates it to a [`Trajectory`], which yields every output as a [`Signal`]: a piecewise
+//! polynomial in SI units whose extrema, crossings and integrals are those of the continuous solution, not of samples.
 
 mod budget;
 mod error;

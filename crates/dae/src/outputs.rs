@@ -45,7 +45,6 @@ pub struct Outputs {
 
 #[derive(Clone, Default, PartialEq)]
 struct Packed {
-    /// All names, one behind the other.
     names: String,
     /// The units that occur.
     units: Vec<&'static str>,
@@ -59,7 +58,6 @@ struct Packed {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Head {
     name: u32,
-    /// Which of the units.
     unit: u8,
 }
 

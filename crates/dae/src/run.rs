@@ -29,9 +29,8 @@ pub enum Keep {
     /// All of it, so that every output can be asked for: memory grows with unknowns times steps.
     #[default]
     Everything,
-    /// A part of it, and a [`Digest`](crate::Digest) of the rest: memory grows with the unknowns of
-    /// the part times steps, and with all unknowns. Runs of several intervals, and methods that
-    /// take no steps, keep everything.
+    /// A part of it, and a [`Digest`](crate::Digest) of the rest: memory grows with the unknowns of the part times
+    /// steps, and with all unknowns. Runs of several intervals, and methods that take no steps, keep everything.
     Part(Arc<Part>),
 }
 
@@ -147,8 +146,7 @@ impl Digest {
 }
 
 impl Instant {
-    /// The inputs on the piece that holds at `piece_time`, with all unknowns, at the dimensionless
-    /// `time`.
+    /// The inputs on the piece that holds at `piece_time`, with all unknowns, at the dimensionless `time`.
     pub(crate) fn new(system: &System, state: Vec<f64>, (piece_time, time): (f64, f64)) -> Self {
         let mut inputs = vec![0.0; system.inputs.len()];
         system.inputs_at(piece_time, time, &mut inputs);

@@ -139,8 +139,7 @@ impl System {
         self.unknowns.iter().filter(|unknown| unknown.kind == UnknownKind::Algebraic).count()
     }
 
-    /// The times in `(0, end)` at which a driving function or one of its rates may jump, sorted,
-    /// in dimensionless time.
+    /// The times in `(0, end)` at which a driving function or one of its rates may jump, sorted, in dimensionless time.
     pub fn breakpoints(&self, end: f64) -> Vec<f64> {
         let mut times: Vec<f64> = self
             .waveforms
@@ -172,9 +171,8 @@ impl System {
         of_pieces.reduce(f64::min)
     }
 
-    /// The shortest dimensionless time in which a driving function may go and come back within
-    /// `[start, end]`, between which no other piece begins: a period, or the length of a polynomial that
-    /// turns. `None` where none does.
+    /// The shortest dimensionless time in which a driving function may go and come back within `[start, end]`, between
+    /// which no other piece begins: a period, or the length of a polynomial that turns. `None` where none does.
     pub(crate) fn shortest_swing(&self, (start, end): (f64, f64)) -> Option<f64> {
         let swing = |waveform: &Waveform| {
             let piece = waveform.piece_at(start);

@@ -1,5 +1,4 @@
-//! From a model to a design: the best numbers within limits, what no pad can beat, and cushion
-//! curves.
+//! From a model to a design: the best numbers within limits, what no pad can beat, and cushion curves.
 
 pub mod cushion;
 pub mod floor;

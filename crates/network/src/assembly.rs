@@ -32,8 +32,7 @@ pub struct Assembly {
     pub warnings: Vec<NetworkWarning>,
     /// Tables of time that hold a value within the run although nobody says so.
     pub held: Vec<HeldTable>,
-    /// The phases of what switches, where anything does; [`system`](Self::system) is then that of
-    /// the first ones.
+    /// The phases of what switches, where anything does; [`system`](Self::system) is then that of the first ones.
     pub switching: Option<Arc<PhasedNetwork>>,
 }
 

@@ -1,14 +1,12 @@
 //! Pads of layers with mass, in which waves travel.
 //!
-//! A layer of thickness `h`, area `A`, density `ρ` and stiffness `K` (`A/h` times the modulus `E`)
-//! has the mass `m = ρ A h`. A wave crosses it in the time `√(m/K)`, with the speed
-//! `c = √(E/ρ) = h √(K/m)`, and has the impedance `Z = ρ c A = √(m K)`, the force over the speed of
-//! the particles.
+//! A layer of thickness `h`, area `A`, density `ρ` and stiffness `K` (`A/h` times the modulus `E`) has the mass `m = ρ
+//! A h`. A wave crosses it in the time `√(m/K)`, with the speed `c = √(E/ρ) = h √(K/m)`, and has the impedance `Z = ρ c
+//! A = √(m K)`, the force over the speed of the particles.
 //!
-//! To resolve it, a layer is cut into `n` equal segments with their masses at their centres. Between
-//! the centres stand segments of the layer without mass, at its faces half ones, so that both faces
-//! are massless and the force on a face is that of its half segment. Waves of the angular frequency
-//! `ω` travel too slowly in such a chain, by the part
+//! To resolve it, a layer is cut into `n` equal segments with their masses at their centres. Between the centres stand
+//! segments of the layer without mass, at its faces half ones, so that both faces are massless and the force on a face
+//! is that of its half segment. Waves of the angular frequency `ω` travel too slowly in such a chain, by the part
 //!
 //! `1 − sin(x)/x ≈ (ω Δt)²/24`, with `x = ω Δt/2` and the time of passage `Δt` of one segment.
 //!
@@ -65,8 +63,7 @@ pub enum Resolution {
     Accuracy(f64),
 }
 
-/// A part of a layer that carries one force: what stands between two masses of a pad, or between a
-/// mass and a face.
+/// A part of a layer that carries one force: what stands between two masses of a pad, or between a mass and a face.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Piece {
     /// Name of the layer.
@@ -157,11 +154,10 @@ impl Layers {
         }
     }
 
-    /// The angular frequency \[rad/s\] up to which waves are to be right in a pad that a body of
-    /// `mass` \[kg\] strikes: the larger one of `√(K/mass)`, that of the impact, whose half period is
-    /// the time of contact on a spring, and `π √(K/m)`, that of the first standing wave between the
-    /// faces of a uniform pad of mass `m` that are held. `K` is the stiffness of the pad at this
-    /// frequency. `None` for a pad without mass, without stiffness or rigid.
+    /// The angular frequency \[rad/s\] up to which waves are to be right in a pad that a body of `mass` \[kg\] strikes:
+    /// the larger one of `√(K/mass)`, that of the impact, whose half period is the time of contact on a spring, and `π
+    /// √(K/m)`, that of the first standing wave between the faces of a uniform pad of mass `m` that are held. `K` is
+    /// the stiffness of the pad at this frequency. `None` for a pad without mass, without stiffness or rigid.
     pub fn frequency(&self, mass: Option<f64>) -> Option<f64> {
         let own = std::f64::consts::PI / self.mass().sqrt();
         let factor =
@@ -180,8 +176,7 @@ impl Layers {
         Some(omega)
     }
 
-    /// How many segments each layer gets in a pad that a body of `mass` \[kg\] strikes; none for a
-    /// layer without mass.
+    /// How many segments each layer gets in a pad that a body of `mass` \[kg\] strikes; none for a layer without mass.
     ///
     /// # Errors
     ///

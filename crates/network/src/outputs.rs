@@ -135,8 +135,7 @@ pub struct DriveOutputs {
     /// Velocity of that node \[m/s\]. `None` at a massless node in a network that switches: it is not
     /// known in all phases.
     pub velocity: Option<usize>,
-    /// Times \[s\] at which a prescribed displacement jumps; the work done there is the jump of
-    /// the stored energy.
+    /// Times \[s\] at which a prescribed displacement jumps; the work done there is the jump of the stored energy.
     pub jumps: Vec<f64>,
 }
 

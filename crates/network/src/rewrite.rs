@@ -15,13 +15,9 @@ fn rewrites(network: &Network) -> bool {
         || network.connections.iter().any(|connection| connection.layers.is_some())
 }
 
-/// Puts into a network the masses of its layers and all that its effects are made of, in the order
-/// of the register.
-///
-/// # Errors
-///
-/// [`NetworkError`] of the first layers that cannot be resolved, or of the first effect that has no
-/// place in the network.
+/// Puts into a network the masses of its layers and all that its effects are made of, in the order of the register.
+/// Errors: [`NetworkError`] of the first layers that cannot be resolved, or of the first effect that has no place in
+/// the network.
 pub(crate) fn rewrite(network: &mut Network) -> Result<(), NetworkError> {
     let mut effects: Vec<Arc<dyn Effect>> =
         network.effects.iter().filter(|effect| effect.rewrites()).map(Arc::clone).collect();
@@ -34,8 +30,7 @@ pub(crate) fn rewrite(network: &mut Network) -> Result<(), NetworkError> {
 }
 
 impl Network {
-    /// The network with the nodes and elements that its effects and layers put into it, as it is
-    /// compiled.
+    /// The network with the nodes and elements that its effects and layers put into it, as it is compiled.
     ///
     /// # Errors
     ///

@@ -5,9 +5,8 @@
 
 use nalgebra::{Complex, DMatrix, Dyn, SVD, Schur, SymmetricEigen};
 
-/// Shifts of the eigenvalues and thresholds of the iteration, both relative. It judges by the sizes
-/// of the eigenvalues, so without a shift it keeps small ones accurate, but does not always end where
-/// several are zero.
+/// Shifts of the eigenvalues and thresholds of the iteration, both relative. It judges by the sizes of the eigenvalues,
+/// so without a shift it keeps small ones accurate, but does not always end where several are zero.
 const ATTEMPTS: [(f64, f64); 4] = [
     (0.0, f64::EPSILON),
     (0.7, f64::EPSILON),

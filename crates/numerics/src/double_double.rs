@@ -24,9 +24,8 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
 /// A double-double number, known to about 32 digits: the unevaluated sum of two doubles, of which the second is at
 /// most half a unit in the last place of the first.
 ///
-/// Each operation is right to a few units of 2⁻¹⁰⁴, relatively, as long as its result and rest are
-/// normal doubles; results below about 10⁻²⁹² have fewer digits. Overflow gives infinities or NaN,
-/// as with doubles.
+/// Each operation is right to a few units of 2⁻¹⁰⁴, relatively, as long as its result and rest are normal doubles;
+/// results below about 10⁻²⁹² have fewer digits. Overflow gives infinities or NaN, as with doubles.
 ///
 /// # References
 ///

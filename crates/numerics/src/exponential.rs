@@ -121,8 +121,7 @@ impl<M: SquareMatrix> Powers<M> {
 
     /// `e^{A time}` by scaling and squaring.
     ///
-    /// The error is of the size of rounding times the rate times the time, relative to the largest
-    /// entry on the way.
+    /// The error is of the size of rounding times the rate times the time, relative to the largest entry on the way.
     pub fn exponential(&self, time: f64) -> M {
         let halvings = halvings(self.rate * time.abs());
         let scale = time * (-halvings).exp2();

@@ -75,8 +75,7 @@ const MOST_STEPS: usize = 200;
 /// False position: the last bracket `(x, f(x))` of a root, from one in which `f` has different signs
 /// at both ends. Wherever a step does not halve the bracket by itself, the next one halves it.
 ///
-/// It ends when the bracket is no wider than `narrowest` times its upper end, and when there is no
-/// number left in it.
+/// It ends when the bracket is no wider than `narrowest` times its upper end, and when there is no number left in it.
 ///
 /// # Errors
 ///

@@ -242,8 +242,7 @@ struct Slots {
 }
 
 impl Slots {
-    /// Parts within a form of the same direction stand in its row; a form of the other direction
-    /// is an element.
+    /// Parts within a form of the same direction stand in its row; a form of the other direction is an element.
     fn read(&mut self, path: &mut Vec<&'static str>, parts: &[Part], in_series: bool) {
         for part in parts {
             path.push(part.name);

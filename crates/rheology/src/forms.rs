@@ -116,8 +116,7 @@ pub const BURGERS: Form = Form {
 /// Every form. **A new form is registered here.**
 pub const FORMS: &[Form] = &[KELVIN_VOIGT, MAXWELL, ZENER, JEFFREYS, BURGERS];
 
-/// The tree of a form; `leaf` makes the primitive for the part at a path such as
-/// `["maxwell", "spring"]`.
+/// The tree of a form; `leaf` makes the primitive for the part at a path such as `["maxwell", "spring"]`.
 ///
 /// # Examples
 ///

@@ -19,9 +19,8 @@ pub struct Entangled {
     pub combinations: Vec<(String, Primitive)>,
 }
 
-/// Groups of parameters of a model that cannot all be told apart from outside, the largest ones
-/// only; none if all can be. `leaf` says what the parts are; rigid links and zero constants are no
-/// parameters.
+/// Groups of parameters of a model that cannot all be told apart from outside, the largest ones only; none if all can
+/// be. `leaf` says what the parts are; rigid links and zero constants are no parameters.
 ///
 /// # Examples
 ///
@@ -67,8 +66,7 @@ struct Seen<'t, P> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Constants {
     Some {
-        /// Instantaneous compliance, a spring in the Kelvin form; else the Maxwell form has a
-        /// dashpot.
+        /// Instantaneous compliance, a spring in the Kelvin form; else the Maxwell form has a dashpot.
         yields_at_once: bool,
         /// Long-time fluidity, a dashpot in the Kelvin form; else the Maxwell form has a spring.
         flows: bool,
@@ -152,8 +150,7 @@ fn composed<'t, P>(node: &'t Tree<P>, mut parts: Vec<Seen<'t, P>>) -> Seen<'t, P
             (!parameters.is_empty()).then(|| group((0..parts.len()).collect(), &parts, true));
         return Seen { constants: alone, parameters, groups: hidden.into_iter().collect() };
     }
-    // The constants that add up: compliance and fluidity in a series, stiffness and damping side
-    // by side.
+    // The constants that add up: compliance and fluidity in a series, stiffness and damping side by side.
     let adds = |own: Constants, which: usize| match own {
         Constants::Some { yields_at_once, flows } => [yields_at_once, flows][which] == in_series,
         Constants::Rigid | Constants::Nothing => false,

@@ -1,7 +1,6 @@
 //! How the constants of a model's canonical form follow from its parameters.
 //!
-//! Derivatives are carried along with the composition, so they cost no further conversions and are
-//! right to rounding.
+//! Derivatives are carried along with the composition, so they cost no further conversions and are right to rounding.
 
 use nalgebra::DMatrix;
 
@@ -70,9 +69,8 @@ pub fn sensitivity<P>(tree: &Tree<P>, leaf: impl Fn(&P) -> Primitive) -> Option<
 }
 
 impl Sensitivity {
-    /// How the parameters of `other`, a model that is the same from outside, follow from the
-    /// parameters of this one. `None` where they do not, because those of `other` cannot all be
-    /// told apart.
+    /// How the parameters of `other`, a model that is the same from outside, follow from the parameters of this one.
+    /// `None` where they do not, because those of `other` cannot all be told apart.
     pub fn map_to(&self, other: &Self) -> Option<ParameterMap> {
         let square = other.jacobian.is_square() && other.jacobian.nrows() == self.jacobian.nrows();
         let inverse = square.then(|| other.jacobian.clone().lu())?;

@@ -11,9 +11,8 @@ pub const MOST_LEVELS: usize = 128;
 
 /// A two-terminal model composed of parts of type `P`.
 ///
-/// In a [`Series`](Self::Series) one force passes through all branches and their deformations add
-/// up, in order from the impactor's side; in a [`Parallel`](Self::Parallel) all branches have one
-/// deformation and their forces add up.
+/// In a [`Series`](Self::Series) one force passes through all branches and their deformations add up, in order from the
+/// impactor's side; in a [`Parallel`](Self::Parallel) all branches have one deformation and their forces add up.
 ///
 /// `a + b` is a series, since compliances add up there, and `a | b` stands in parallel. `+` binds
 /// closer than `|`. Branches of series in a series, or parallel ones in parallel, join with no level of
@@ -43,8 +42,7 @@ pub enum Tree<P> {
 /// A named branch of a tree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch<P> {
-    /// Name of the branch; unique among its siblings. Paths such as `padding.kelvin.spring` are
-    /// made of these.
+    /// Name of the branch; unique among its siblings. Paths such as `padding.kelvin.spring` are made of these.
     pub name: String,
     /// What the branch is.
     pub tree: Tree<P>,

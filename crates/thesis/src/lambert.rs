@@ -9,11 +9,10 @@ const TOUCHES: f64 = 1e-3;
 
 /// The places z at which `e^z = slope z + intercept`, in order: none, one or two.
 ///
-/// With `v = z + intercept/slope` that is `v e^(−v) = e^(−intercept/slope)/slope`, so `v = −W`. For a
-/// positive slope W₀ gives the lower place and W₋₁ the upper one, both real where
-/// `intercept/slope + ln slope ≥ 1`; for a negative slope W₀ gives the only one. A line that is flat
-/// meets the curve at `ln intercept`. Places where the line only touches the curve are known to half
-/// of the digits.
+/// With `v = z + intercept/slope` that is `v e^(−v) = e^(−intercept/slope)/slope`, so `v = −W`. For a positive slope W₀
+/// gives the lower place and W₋₁ the upper one, both real where `intercept/slope + ln slope ≥ 1`; for a negative slope
+/// W₀ gives the only one. A line that is flat meets the curve at `ln intercept`. Places where the line only touches the
+/// curve are known to half of the digits.
 pub fn intersections(slope: f64, intercept: f64) -> Vec<f64> {
     if slope == 0.0 {
         return Some(intercept.ln()).filter(|z| z.is_finite()).into_iter().collect();

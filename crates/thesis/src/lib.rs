@@ -1,9 +1,8 @@
 //! The thesis behind this project, "Impact Modeling of Viscoelastic Systems", recomputed: its groups,
 //! chapter III in closed form, its figures, numbers, misprints and claims.
 //!
-//! The thesis solved its equations on an analogue computer and read its conclusions off the plots. Here
-//! the same equations are solved exactly. Nothing is taken over: verdicts follow from what is
-//! computed at run time.
+//! The thesis solved its equations on an analogue computer and read its conclusions off the plots. Here the same
+//! equations are solved exactly. Nothing is taken over: verdicts follow from what is computed at run time.
 //!
 //! - [`Groups`]: a … e, α, β, γ, to and from springs, dashpots and masses.
 //! - [`Pulse`]: chapter III, a padding under a force that is prescribed.

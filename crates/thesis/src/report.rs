@@ -33,8 +33,7 @@ impl Recomputation {
     ///
     /// # Errors
     ///
-    /// As [`Study::new`], [`misprints`] and [`claims`](crate::claims()); the thesis' own paddings give
-    /// none.
+    /// As [`Study::new`], [`misprints`] and [`claims`](crate::claims()); the thesis' own paddings give none.
     pub fn new() -> Result<Self, ThesisError> {
         let study = Study::new()?;
         Ok(Self {

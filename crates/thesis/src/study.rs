@@ -84,9 +84,8 @@ impl Varied {
         }
     }
 
-    /// The values of its family, the base among them. Those of the thesis' figures are lost, so they
-    /// are chosen: on both sides of the base, and for b and d once beyond the thickness. C₂ keeps to
-    /// the range that chapter V gives.
+    /// The values of its family, the base among them. Those of the thesis' figures are lost, so they are chosen: on
+    /// both sides of the base, and for b and d once beyond the thickness. C₂ keeps to the range that chapter V gives.
     pub fn values(self) -> [f64; 5] {
         match self {
             Self::A => [20.0, 23.0, 26.6, 30.0, 35.0],
@@ -182,8 +181,7 @@ impl Study {
         self.families().find(|family| family.varied == varied)
     }
 
-    /// The largest change of the energy at a time \[s\] over the family of each group, relative to its
-    /// base.
+    /// The largest change of the energy at a time \[s\] over the family of each group, relative to its base.
     pub fn energy_changes(&self, time: f64) -> Vec<(&'static str, f64)> {
         let tau = time / Scales::CHAPTER_4.time();
         let base = self.printed.energy(tau);

@@ -93,8 +93,7 @@ fn exact_molar(value: f64) -> Option<String> {
     is_same.then_some(text)
 }
 
-/// The symbol of a unit in which what is of this power of ten \[SI\] is handy, and the power of ten of
-/// that unit.
+/// The symbol of a unit in which what is of this power of ten \[SI\] is handy, and the power of ten of that unit.
 pub(crate) fn handy(dimension: Dimension, exponent: i32) -> (String, i32) {
     let scales = scales(dimension);
     let fitting = scales.iter().rev().find(|(_, power)| *power <= exponent).or(scales.first());

@@ -10,8 +10,7 @@ const MOST_DIGITS: usize = 7;
 /// The SI unit of an energy per volume.
 const ENERGY_DENSITY: &str = "J/m³";
 
-/// Units in which impacts are read where others would suit as well: SI unit, range of the value,
-/// symbol and factor.
+/// Units in which impacts are read where others would suit as well: SI unit, range of the value, symbol and factor.
 const USUAL: [(&str, Range<f64>, &str, f64); 3] =
     [("s", 1e-5..1.0, "ms", 1e-3), ("m", 1e-5..1.0, "mm", 1e-3), ("m/s", 1e-2..1e3, "m/s", 1.0)];
 

@@ -17,7 +17,6 @@ pub(crate) struct EnergyRole {
 }
 
 impl EnergyRole {
-    /// Those of an element.
     pub(crate) fn of(element: &dyn Element) -> Self {
         match element.law() {
             Law::Spring(_) => Self { stores: true, dissipates: false },
@@ -44,8 +43,7 @@ pub(crate) fn is_elastic(element: &dyn Element) -> bool {
     matches!(whole, Some(Law::Nonlinear { damping, .. }) if damping <= 0.0)
 }
 
-/// The energy \[J\] that a part stores at `time` \[s\] at this deformation \[m\], just before what
-/// switches then.
+/// The energy \[J\] that a part stores at `time` \[s\] at this deformation \[m\], just before what switches then.
 pub(crate) fn stored(
     (assembly, trajectory): (&Assembly, &Trajectory),
     primitive: &PrimitiveOutputs,

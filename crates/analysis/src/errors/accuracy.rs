@@ -101,10 +101,9 @@ impl Evidence<'_> {
     }
 }
 
-/// How well a measure can be known at best where a solution loses the part `closure` of the energy
-/// `turned_over` \[J\]: an energy to what is lost, an amplitude to half of that part, and an index, the power 2.5 of
-/// one, to 2.5 times as much. It tells of what all solutions miss alike, because no tolerance but the room between their
-/// steps made them so.
+/// How well a measure can be known at best where a solution loses the part `closure` of the energy `turned_over` \[J\]:
+/// an energy to what is lost, an amplitude to half of that part, and an index, the power 2.5 of one, to 2.5 times as
+/// much. It tells of what all solutions miss alike, because no tolerance but the room between their steps made them so.
 pub(crate) fn of_energy(reading: &Reading, unit: &str, (closure, turned_over): (f64, f64)) -> f64 {
     let lost = closure.abs();
     let power = if unit == "s" { INJURY } else { 1.0 };
@@ -174,8 +173,7 @@ pub(crate) fn is_lost_in_noise(reading: &Reading, error: Option<f64>) -> bool {
     vanishes && error.is_some_and(|error| error <= 4.0 * reading.noise)
 }
 
-/// How many outputs are looked at, of those that were kept; fewer can only make a quantity seem
-/// smaller.
+/// How many outputs are looked at, of those that were kept; fewer can only make a quantity seem smaller.
 const MOST_OUTPUTS: usize = 1000;
 /// An error so many times the largest of its kind tells nothing.
 const FAR_BEYOND: f64 = 10.0;

@@ -8,7 +8,7 @@ use crate::{
         accuracy::excess,
         solved::{Solved, Task},
     },
-    solution::{threshold_at, undecided_releases},
+    solution::{threshold_at, undecided_ends},
 };
 
 /// An impact that may end where its force comes within its error of zero and pushes on.
@@ -36,7 +36,7 @@ impl OpenEnd {
         errors: &mut [Option<f64>],
     ) -> Option<Self> {
         let (finest, others) = solved.split_last().filter(|own| !own.1.is_empty())?;
-        let ends = undecided_releases(
+        let ends = undecided_ends(
             &finest.as_read(task.assembly),
             &|| others.iter().map(|other| other.as_read(task.assembly)).collect(),
             threshold_at(Some(finest.rtol)),
@@ -70,7 +70,7 @@ impl OpenEnd {
             return None;
         }
         let solution = || solved.as_read(task.assembly);
-        let ends = undecided_releases(&solution(), &Vec::new, solved.threshold);
+        let ends = undecided_ends(&solution(), &Vec::new, solved.threshold);
         let time = ends.iter().map(|end| end.1).reduce(f64::min)?;
         let earlier = task.read(&mut solution().ending(ends));
         let differs = |(at, (own, other)): (usize, (&Reading, &Reading))| {

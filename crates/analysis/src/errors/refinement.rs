@@ -29,14 +29,12 @@ const FINER: u64 = 16;
 const ALWAYS: u64 = 10_000_000;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
-/// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for
-/// its sake.
+/// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for its sake.
 const SOLUTIONS_FOR_ENDS: usize = 2;
 /// The last tolerance that is tried, 1e-12, in half decades below 1.
 const FINEST: i32 = 24;
 
-/// Memory that all solutions of a run together may keep, from whose differences its errors are estimated
-/// \[B\].
+/// Memory that all solutions of a run together may keep, from whose differences its errors are estimated \[B\].
 const MOST_KEPT: usize = 4_000_000_000;
 
 /// The solution to report, and what is known about its errors.
@@ -117,8 +115,7 @@ impl Descent {
         ControlFlow::Continue(())
     }
 
-    /// Notes what became of a finer solution. Breaks where those that are finer still do not get through
-    /// either.
+    /// Notes what became of a finer solution. Breaks where those that are finer still do not get through either.
     fn fail(&mut self, error: SolveError) -> ControlFlow<()> {
         let again = self.obstacle.as_ref().is_some_and(|before| is_same_end(before, &error));
         self.alike = if again { self.alike + 1 } else { 1 };
@@ -130,8 +127,7 @@ impl Descent {
                 | SolveError::TooLarge { .. }
         );
         self.obstacle = Some(error);
-        // A finer solution may fail where rounding rules; a coarse one may fail where a finer one does
-        // not.
+        // A finer solution may fail where rounding rules; a coarse one may fail where a finer one does not.
         if is_too_much || self.alike == ENDS_ALIKE || self.is_full() {
             return ControlFlow::Break(());
         }
@@ -141,8 +137,7 @@ impl Descent {
 }
 
 impl Task<'_> {
-    /// One solution where the method bounds its error or nobody asks for it, else as many as it
-    /// takes.
+    /// One solution where the method bounds its error or nobody asks for it, else as many as it takes.
     pub(crate) fn run(
         &self,
         run: &Run,
@@ -187,8 +182,7 @@ impl Task<'_> {
         improves
     }
 
-    /// Reads solutions again with the doubts about their contact forces that all of them together
-    /// leave.
+    /// Reads solutions again with the doubts about their contact forces that all of them together leave.
     fn settle_undecided(&self, solved: &mut [Solved]) {
         let thresholds = thresholds(solved);
         for (solved, threshold) in solved.iter_mut().zip(thresholds) {
@@ -261,8 +255,7 @@ impl Task<'_> {
         })
     }
 
-    /// Whether the last of as many solutions as error bars take is accurate enough, or finer ones would not
-    /// make it so.
+    /// Whether the last of as many solutions as error bars take is accurate enough, or finer ones would not make it so.
     fn is_done(&self, run: &Run, descent: &mut Descent) -> bool {
         descent.obstacle = None;
         self.settle_undecided(&mut descent.last);
@@ -395,10 +388,9 @@ fn tolerances(finest: Option<f64>) -> Vec<f64> {
 
 /// The doubts with which to read solutions, the last of which is the finest.
 ///
-/// An error of the method shrinks with the tolerance, while a pull that is one stays as deep: where
-/// all agree on it, it is not in doubt however shallow. Where they do not, and it is not negligible,
-/// it is left open: all but the finest solution are read as if there were no doubt, so that what hangs
-/// on it shows in the error.
+/// An error of the method shrinks with the tolerance, while a pull that is one stays as deep: where all agree on it, it
+/// is not in doubt however shallow. Where they do not, and it is not negligible, it is left open: all but the finest
+/// solution are read as if there were no doubt, so that what hangs on it shows in the error.
 fn thresholds(solved: &[Solved]) -> Vec<f64> {
     /// How much deeper one pull may be than another that is the same.
     const SAME: f64 = 1.5;

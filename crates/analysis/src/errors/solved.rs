@@ -20,7 +20,6 @@ use crate::{
 /// Work of reading a panel of a signal.
 const READING: u64 = 48;
 
-/// What is to be solved, and how.
 #[derive(Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub(crate) assembly: &'a Assembly,

@@ -12,7 +12,6 @@ use dashpot_network::{
 
 use crate::energy::roles::EnergyRole;
 
-/// The parts of a connection.
 fn parts<'a>(assembly: &'a Assembly, connection: &ConnectionOutputs) -> &'a [PrimitiveOutputs] {
     assembly.primitives.get(connection.primitives.clone()).unwrap_or(&[])
 }
@@ -22,7 +21,6 @@ pub(crate) fn is_contact(primitive: &PrimitiveOutputs) -> bool {
     primitive.element.kind() == Contact::KIND
 }
 
-/// Whether a connection has a contact in it.
 pub(crate) fn has_contact(assembly: &Assembly, connection: &ConnectionOutputs) -> bool {
     parts(assembly, connection).iter().any(is_contact)
 }

@@ -12,8 +12,7 @@ use super::contacts;
 pub struct VelocityJump {
     /// When \[s\].
     pub time: f64,
-    /// Of an element the impulse that pushes its ends apart, on a body that towards the
-    /// support \[N s\].
+    /// Of an element the impulse that pushes its ends apart, on a body that towards the support \[N s\].
     pub impulse: f64,
     /// Kinetic energy lost \[J\].
     pub lost: f64,

@@ -14,8 +14,7 @@ pub(crate) const NO_APPROACH: f64 = 1e-9;
 const AT_ONCE: f64 = 1e-9;
 
 parameters! {
-    /// The time from first contact to the first zero of an element's force \[s\], for elements that
-    /// touch an impactor.
+    /// The time from first contact to the first zero of an element's force \[s\], for elements that touch an impactor.
     ///
     /// Of an element that an impactor strikes through a face with mass it is the time from the first touch
     /// of the face until the impactor has left it and the element is unloaded.

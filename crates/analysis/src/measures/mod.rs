@@ -266,8 +266,7 @@ pub static MEASURES: &[MeasureEntry] = &[
     measure::<TransmittedForce>(),
 ];
 
-/// The measures of a family that every run reports, with or without an impactor, in the order of
-/// the register.
+/// The measures of a family that every run reports, with or without an impactor, in the order of the register.
 pub fn by_default(family: Family, has_impactor: bool) -> Vec<Arc<dyn Measure>> {
     let is_reported = |measure_traits: &MeasureTraits| {
         if has_impactor { measure_traits.by_default } else { measure_traits.without_impactor }

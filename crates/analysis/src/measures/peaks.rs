@@ -33,9 +33,8 @@ impl MeasureKind for PeakForce {
 }
 
 windowed! {
-    /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in
-    /// elongation is noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is
-    /// apart by is a gap.
+    /// The largest magnitude of an element's deformation, `max |y(t)|` \[m\], with its time; a peak in elongation is
+    /// noted. Of what never pulls it is the deepest compression, `max y(t) ≥ 0`: what it is apart by is a gap.
     PeakDeformation: "peak-deformation",
         "largest magnitude of the deformation, positive in compression [m]"
 }
@@ -199,9 +198,8 @@ impl MeasureKind for EndPosition {
 }
 
 windowed! {
-    /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support:
-    /// at the end of its impact an impactor's rebound speed, negative. Where the speed jumps at the end,
-    /// it is that after the jump.
+    /// A node's velocity at the end of the window, `v(t_end)` \[m/s\], positive towards the support: at the end of its
+    /// impact an impactor's rebound speed, negative. Where the speed jumps at the end, it is that after the jump.
     EndVelocity: "end-velocity",
         "velocity at the end of the window: the rebound speed of an impactor [m/s]"
 }

@@ -10,8 +10,7 @@ use crate::{
 /// A number read off a solution.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reading {
-    /// The value in the measure's unit; `None` where it is infinite or undefined, and a note
-    /// says why.
+    /// The value in the measure's unit; `None` where it is infinite or undefined, and a note says why.
     pub value: Option<f64>,
     /// The size to which a relative accuracy refers: the value's own, or where the value is a
     /// difference of larger things, theirs.
@@ -146,8 +145,7 @@ impl Reading {
         Self::over(span, value, error).of_size(size).above(noise).changing(last)
     }
 
-    /// The same reading over the length of its span, which is positive: the mean of what it is the integral
-    /// of.
+    /// The same reading over the length of its span, which is positive: the mean of what it is the integral of.
     #[must_use]
     pub fn mean(self, span: &Span) -> Self {
         let length = span.length();

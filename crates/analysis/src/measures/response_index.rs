@@ -19,7 +19,6 @@ use crate::{Note, Solution};
 
 /// Angular frequency of the model of the spine \[rad/s\].
 const OMEGA: f64 = 52.9;
-/// Its damping ratio.
 const DAMPING_RATIO: f64 = 0.224;
 
 parameters! {

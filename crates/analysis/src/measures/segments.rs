@@ -42,9 +42,8 @@ windowed! {
     /// The largest magnitude of the strain in any segment of a pad, `max |y(t)|/h` \[1\], with its time and
     /// its layer; a peak in elongation is noted.
     ///
-    /// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments;
-    /// another element with a `thickness` is a single one, and so is each branch of its model with a
-    /// thickness of its own.
+    /// `y` is the deformation of the segment and `h` its thickness at rest. Pads of layers have segments; another
+    /// element with a `thickness` is a single one, and so is each branch of its model with a thickness of its own.
     PeakStrain: "peak-strain",
         "largest strain in any segment of a pad, deformation over thickness [1]"
 }

@@ -33,8 +33,7 @@ impl MeasureWish {
 /// A measure of an element or node of one network.
 #[derive(Debug, Clone)]
 pub(crate) struct Selected {
-    /// `<target>.<kind>`; a further measure of the same target and kind has `-2`, `-3`, … at the
-    /// end.
+    /// `<target>.<kind>`; a further measure of the same target and kind has `-2`, `-3`, … at the end.
     pub(crate) key: String,
     pub(crate) name: String,
     pub(crate) target: usize,

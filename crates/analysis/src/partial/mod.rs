@@ -1,12 +1,11 @@
 //! Partial modelling: what matters little is left out, and what that costs is measured.
 //!
-//! An effect is a candidate where each of its dimensionless numbers
-//! ([`Influence`](dashpot_network::Influence)) is below the bound; one without a number is none. An
-//! estimate proves nothing, so the network is solved with and without all candidates together, and
-//! every measure that both have is compared. Where one moves by more than the bound, each candidate
-//! is left out alone. Those that exceed the bound by themselves are put back, and where the rest
-//! still does so together, one after the other, the largest first. The last comparison is always
-//! that of the network which is reported.
+//! An effect is a candidate where each of its dimensionless numbers ([`Influence`](dashpot_network::Influence)) is
+//! below the bound; one without a number is none. An estimate proves nothing, so the network is solved with and without
+//! all candidates together, and every measure that both have is compared. Where one moves by more than the bound, each
+//! candidate is left out alone. Those that exceed the bound by themselves are put back, and where the rest still does
+//! so together, one after the other, the largest first. The last comparison is always that of the network which is
+//! reported.
 //!
 //! A single run becomes no cheaper by this: it takes two solutions or more in place of one. A
 //! [`sweep`] is checked at some of its points only.
@@ -30,10 +29,7 @@ use crate::{MeasureReport, RunError, RunReport, SolveSettings};
 
 /// Solves a network that is compiled already without what is shown to move no measure by more than
 /// `bound`; and what that is. The errors of measures include what was left out.
-///
-/// # Errors
-///
-/// As [`solve_assembly`](crate::solve_assembly).
+/// Errors: as [`solve_assembly`](crate::solve_assembly).
 pub(crate) fn reduced(
     network: &Network,
     assembly: &Arc<Assembly>,

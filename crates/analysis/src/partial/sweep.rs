@@ -21,8 +21,7 @@ const LEAST: usize = 3;
 /// The runs of a sweep, and what was left out of them.
 #[derive(Debug)]
 pub struct PartialSweep {
-    /// One for each network, in their order. At points that were checked, errors include what was
-    /// left out.
+    /// One for each network, in their order. At points that were checked, errors include what was left out.
     pub runs: Vec<Result<RunReport, RunError>>,
     /// What was left out of all of them, the largest influence at the first point first.
     pub left_out: Vec<Neglected>,
@@ -95,12 +94,8 @@ impl Decision {
     }
 }
 
-/// Finds what may be left out of all of these networks, as [`sweep`] does, by solving those at the
-/// positions `points` with and without it.
-///
-/// # Errors
-///
-/// What is wrong with the settings, and that the observer has cancelled a run.
+/// Finds what may be left out of all of these networks, as [`sweep`] does, by solving those at the positions `points`
+/// with and without it. Errors: what is wrong with the settings, and that the observer has cancelled a run.
 pub(crate) fn decide(
     networks: &[Network],
     points: &[usize],
@@ -156,8 +151,7 @@ pub(crate) fn decide(
 ///
 /// # Errors
 ///
-/// What is wrong with the settings, and that the observer has cancelled a run. Other failures stand
-/// among the runs.
+/// What is wrong with the settings, and that the observer has cancelled a run. Other failures stand among the runs.
 pub fn sweep(
     networks: &[Network],
     settings: &SolveSettings,

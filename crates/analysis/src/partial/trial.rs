@@ -115,10 +115,7 @@ impl<'n> Trial<'n> {
     }
 
     /// Solves the network without these details; `Err` within where that is no answer.
-    ///
-    /// # Errors
-    ///
-    /// Where the observer has cancelled the run.
+    /// Errors: where the observer has cancelled the run.
     fn without(
         &mut self,
         details: &[Detail],
@@ -174,12 +171,8 @@ pub(super) fn is_cancelled(error: &RunError) -> bool {
     matches!(error, RunError::Solve(SolveError::Cancelled { .. }))
 }
 
-/// Puts candidates back until none of the trials is moved by more than the bound, and returns each
-/// trial's run without those that remain; nothing where none does.
-///
-/// # Errors
-///
-/// Where the observer has cancelled a run.
+/// Puts candidates back until none of the trials is moved by more than the bound, and returns each trial's run without
+/// those that remain; nothing where none does. Errors: where the observer has cancelled a run.
 pub(super) fn settle(
     candidates: &mut Vec<Candidate>,
     put_back: &mut Vec<PutBack>,
@@ -223,8 +216,7 @@ pub(super) fn settle(
     Ok(Vec::new())
 }
 
-/// Leaves each candidate out alone, and puts those back that exceed the bound by themselves, the
-/// largest first.
+/// Leaves each candidate out alone, and puts those back that exceed the bound by themselves, the largest first.
 fn apart(
     candidates: &mut Vec<Candidate>,
     put_back: &mut Vec<PutBack>,

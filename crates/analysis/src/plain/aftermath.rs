@@ -5,8 +5,7 @@ use dashpot_numerics::small::dot;
 
 use super::stepped::{Course, Nodes, Stepped, Track};
 
-/// What is left to dissipate, in parts of the energy of the impact and of the tolerance, is of no
-/// account.
+/// What is left to dissipate, in parts of the energy of the impact and of the tolerance, is of no account.
 const LITTLE: f64 = 1e-3;
 /// What strikes meets the pad again where it comes as near as this, in parts of the largest deformation.
 const NEAR: f64 = 1e-3;

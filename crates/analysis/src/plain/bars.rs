@@ -11,7 +11,6 @@ pub(crate) const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
 /// Solutions are no coarser than for this accuracy: of few steps two have about the same ones, and their difference
 /// tells nothing.
 pub(crate) const LOOSEST: f64 = 1e-3;
-/// The finest of them.
 const FINEST: f64 = 1e-13;
 /// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
 /// agree by chance.
@@ -30,7 +29,6 @@ pub(crate) struct Found<const N: usize> {
     pub(crate) ratio: f64,
     /// How many solutions there were besides.
     pub(crate) others: usize,
-    /// Work of those.
     pub(crate) work: Statistics,
 }
 

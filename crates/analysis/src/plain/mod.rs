@@ -38,11 +38,7 @@ pub(crate) const MOST_STATES: usize = 12;
 /// The coarser tolerance in parts of one that is given.
 const COARSER: f64 = 100.0;
 
-/// The run of a plain impact; `None` where it is not one, or not certain enough.
-///
-/// # Errors
-///
-/// A run that the observer ends.
+/// The run of a plain impact; `None` where it is not one, or not certain enough. Errors: a run that the observer ends.
 pub(crate) fn solve(
     network: &Network,
     assembly: &Arc<Assembly>,

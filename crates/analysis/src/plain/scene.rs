@@ -40,8 +40,7 @@ pub(super) struct Scene<'s> {
 }
 
 impl<'s> Scene<'s> {
-    /// `None` where something else acts, another method is asked for, or a measure that the impact alone does not
-    /// tell.
+    /// `None` where something else acts, another method is asked for, or a measure that the impact alone does not tell.
     pub(super) fn of(
         network: &Network,
         assembly: &'s Arc<Assembly>,

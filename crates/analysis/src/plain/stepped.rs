@@ -73,7 +73,6 @@ impl<const N: usize> Nodes<N> {
         (0..N).map(relative).fold(0.0, f64::max)
     }
 
-    /// When it ends.
     pub(crate) fn end(&self) -> f64 {
         self.end
     }

@@ -34,7 +34,6 @@ pub(super) struct Told {
     /// … and how far off each may be; not numbers where nobody asked.
     pub(super) errors: Vec<f64>,
     pub(super) rtol: f64,
-    /// What is struck, and how.
     pub(super) struck: Struck,
     /// When the force falls through zero \[s\].
     pub(super) release: f64,
@@ -69,7 +68,6 @@ impl Told {
         is_closed && !is_through && self.values.iter().all(|value| value.is_finite())
     }
 
-    /// The report of the run.
     pub(super) fn report(self, scene: &Scene<'_>) -> RunReport {
         let Scene { assembly, settings, parametric, effects, .. } = scene;
         let measures = self.measures(scene);
@@ -157,7 +155,7 @@ impl Told {
             measure_report(entry, reading, error, scene.settings.accuracy.of(&entry.key))
         };
         let mut reports: Vec<MeasureReport> = (0..scene.selected.len()).map(report).collect();
-        settle_zeros(&mut reports, self.size_of_work, 0.0);
+        settle_zeros(&mut reports, self.size_of_work, self.rtol);
         reports
     }
 

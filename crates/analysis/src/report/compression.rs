@@ -2,8 +2,7 @@
 
 use dashpot_dae::Signal;
 
-/// Closure in parts of the energy turned over, and deformation in parts of a thickness, that rounding may
-/// leave.
+/// Closure in parts of the energy turned over, and deformation in parts of a thickness, that rounding may leave.
 pub(crate) const ROUNDING: f64 = 1e-10;
 
 /// Two thicknesses that differ by less, in parts of themselves, are one.

@@ -53,8 +53,7 @@ pub struct RunReport {
     pub events: Vec<EventReport>,
     /// What was left out, where that was allowed.
     pub partial: Option<Partial>,
-    /// The segments of layers that the errors include; `None` where there are none, or errors were
-    /// not estimated.
+    /// The segments of layers that the errors include; `None` where there are none, or errors were not estimated.
     pub segmentation: Option<Segmentation>,
     /// What the reader must know, the most important first.
     pub warnings: Vec<Warning>,
@@ -300,8 +299,7 @@ impl RunReport {
 pub struct Difference {
     /// Key of the measure.
     pub key: String,
-    /// `|a − b|` over the larger of both measures' sizes, to which their errors refer as well; 0 where
-    /// both are zero.
+    /// `|a − b|` over the larger of both measures' sizes, to which their errors refer as well; 0 where both are zero.
     pub relative: f64,
 }
 

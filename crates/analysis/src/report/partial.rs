@@ -86,8 +86,7 @@ pub struct Cost {
     /// The difference over the larger of both values, or over a twentieth of the larger size where the values
     /// are next to nothing beside it; infinite where only one has a value.
     pub relative: f64,
-    /// How far it may be off, by the errors of both, in the same parts; 0 where they were
-    /// not estimated.
+    /// How far it may be off, by the errors of both, in the same parts; 0 where they were not estimated.
     pub uncertainty: f64,
 }
 

@@ -25,8 +25,7 @@ pub struct Table {
     pub columns: Vec<Column>,
 }
 
-/// `count` regular times from the start to the end of a run of `end` \[s\]; one time alone is the
-/// start.
+/// `count` regular times from the start to the end of a run of `end` \[s\]; one time alone is the start.
 pub fn regular_times(end: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
     let share = |at: usize| at as f64 / last as f64;

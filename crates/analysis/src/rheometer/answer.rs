@@ -3,13 +3,7 @@
 use dashpot_dae::Signal;
 use dashpot_network::{Model, elements::Law};
 
-use super::{
-    Obstacle,
-    history::History,
-    lines::Lines,
-    simulation::{Control, Rig},
-    solved::solve,
-};
+use super::{Obstacle, history::History, lines::Lines, simulation::Rig, solved::solve};
 use crate::Choice;
 
 /// What was done to a model.
@@ -69,19 +63,15 @@ impl Answer {
     ) -> Result<Self, Obstacle> {
         let start = rows.first().map_or(0.0, |own| own.0);
         let history = History::through(rows.iter().map(|own| (own.0 - start, own.1)));
-        let control = match drive {
-            Drive::Force => Control::Force,
-            Drive::Deformation => Control::Deformation,
-        };
         let length = history.end();
-        if let Some(own) = Lines::of(model, control, &history) {
+        if let Some(own) = Lines::of(model, drive, &history) {
             return Ok(Self { course: Course::Closed(own), start, length });
         }
         if drive == Drive::Deformation && rows.len() > 1 && is_static(model) {
             let way = rows.iter().map(|own| (own.0 - start, own.1)).collect();
             return Ok(Self { course: Course::Static(model.clone(), way), start, length });
         }
-        let rig = Rig::new(model, control, &history);
+        let rig = Rig::new(model, drive, &history);
         let solved = solve(&rig, &Choice::Auto, (length, tolerance), Vec::new())?;
         let number = rig.outputs.first().and_then(|own| solved.assembly.output(own));
         let number = number.ok_or(Obstacle::Undetermined)?;
@@ -194,11 +184,7 @@ mod tests {
             let own = Answer::to(&model, drive, &rows, 1e-9).unwrap();
             assert!(matches!(own.course, Course::Closed(_)));
             let history = History::through(rows.into_iter());
-            let control = match drive {
-                Drive::Force => Control::Force,
-                Drive::Deformation => Control::Deformation,
-            };
-            let rig = Rig::new(&model, control, &history);
+            let rig = Rig::new(&model, drive, &history);
             let solved = solve(&rig, &Choice::Auto, (0.5, 1e-9), Vec::new()).unwrap();
             let number = solved.assembly.output(&rig.outputs[0]).unwrap();
             let signal = solved.solution().signal(number).clone();
@@ -220,7 +206,7 @@ mod tests {
         let own = Answer::to(&model, Drive::Deformation, &rows, 1e-9).unwrap();
         assert!(matches!(own.course, Course::Static(..)));
         let history = History::through(rows.iter().map(|own| (own.0 - 0.1, own.1)));
-        let rig = Rig::new(&model, Control::Deformation, &history);
+        let rig = Rig::new(&model, Drive::Deformation, &history);
         let solved = solve(&rig, &Choice::Auto, (0.2, 1e-9), Vec::new()).unwrap();
         let number = solved.assembly.output(&rig.outputs[0]).unwrap();
         let signal = solved.solution().signal(number).clone();

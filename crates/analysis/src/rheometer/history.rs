@@ -75,8 +75,7 @@ impl History {
         Self { corners }
     }
 
-    /// A step or rise to `height`, held for `hold` once it is reached, a step or fall to zero, and
-    /// nothing until `end`.
+    /// A step or rise to `height`, held for `hold` once it is reached, a step or fall to zero, and nothing until `end`.
     pub(super) fn pulse(height: f64, rise: f64, hold: f64, end: f64) -> Self {
         let mut corners = Self::edge(0.0, rise, 0.0, height);
         corners.extend(Self::edge(rise + hold, rise, height, 0.0));
@@ -90,8 +89,7 @@ impl History {
         Self { corners: vec![start, Corner { time: end, before: rate * end, after: rate * end }] }
     }
 
-    /// A straight way to `height` with `rate` from the time 0 on, and back to zero with `back`, both
-    /// rates positive.
+    /// A straight way to `height` with `rate` from the time 0 on, and back to zero with `back`, both rates positive.
     pub(super) fn there_and_back(height: f64, rate: f64, back: f64) -> Self {
         let turn = height.abs() / rate;
         let corner = |time, value| Corner { time, before: value, after: value };
@@ -272,8 +270,7 @@ pub(super) fn deformation(form: &KelvinForm, force: &History, at: Instant) -> Pa
     }
 }
 
-/// The force \[N\] under a deformation \[m\], without the impulses that a dashpot beside all else
-/// answers jumps with.
+/// The force \[N\] under a deformation \[m\], without the impulses that a dashpot beside all else answers jumps with.
 pub(super) fn force(form: &MaxwellForm, deformation: &History, at: Instant) -> f64 {
     let mut force = form.spring() * deformation.value(at);
     if form.dashpot() > 0.0 {

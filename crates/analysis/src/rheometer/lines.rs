@@ -5,8 +5,8 @@ use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
 
 use super::{
     Specimen,
+    answer::Drive,
     history::{History, Instant, Line, weights},
-    simulation::Control,
 };
 
 /// Parts of the time of a branch at which the slope of the answer is looked at for a peak between corners.
@@ -23,7 +23,7 @@ struct Branch {
 /// The answer, by what each branch holds at the corners of the history.
 #[derive(Debug, Clone)]
 pub(super) struct Lines {
-    control: Control,
+    drive: Drive,
     /// What answers at once: spring \[N/m\], or spring compliance \[m/N\].
     spring: f64,
     /// Dashpot beside all else \[N s/m\], or fluidity of one in series \[m/(N s)\].
@@ -37,16 +37,16 @@ pub(super) struct Lines {
 impl Lines {
     /// `None` of models that are not linear or have no such form, of a jump that a dashpot alone meets, and of a history
     /// that does not go on.
-    pub(super) fn of(model: &Model, control: Control, history: &History) -> Option<Self> {
+    pub(super) fn of(model: &Model, drive: Drive, history: &History) -> Option<Self> {
         let specimen = Specimen::new(model).ok().filter(|own| own.linear().is_some())?;
-        let (spring, dashpot, branches) = match control {
-            Control::Deformation => {
+        let (spring, dashpot, branches) = match drive {
+            Drive::Deformation => {
                 let form = specimen.maxwell()?;
                 let all = form.elements().into_iter();
                 let all = all.map(|own| Branch { rate: own.rate.high(), strength: own.stiffness });
                 (form.spring(), form.dashpot(), all.collect())
             }
-            Control::Force => {
+            Drive::Force => {
                 let form = specimen.kelvin()?;
                 let all = form.elements().into_iter();
                 let all = all.map(|own| Branch { rate: own.rate.high(), strength: own.compliance });
@@ -56,11 +56,11 @@ impl Lines {
         let corners = history.corners();
         let lines: Vec<Line> = history.lines_until(Instant::after(history.end())).collect();
         let jump = corners.first().map_or(0.0, |own| own.after - own.before);
-        let is_met = matches!(control, Control::Force) || dashpot <= 0.0 || jump.abs() <= 0.0;
+        let is_met = matches!(drive, Drive::Force) || dashpot <= 0.0 || jump.abs() <= 0.0;
         if lines.is_empty() || lines.len() + 1 < corners.len() || !is_met {
             return None;
         }
-        let mut own = Self { control, spring, dashpot, branches, parts: lines, held: Vec::new() };
+        let mut own = Self { drive, spring, dashpot, branches, parts: lines, held: Vec::new() };
         own.carry(jump);
         Some(own)
     }
@@ -69,11 +69,11 @@ impl Lines {
     fn carry(&mut self, jump: f64) {
         let width = self.branches.len() + 1;
         let mut held = Vec::with_capacity(width * self.parts.len());
-        match self.control {
-            Control::Deformation => {
+        match self.drive {
+            Drive::Deformation => {
                 held.extend(self.branches.iter().map(|own| own.strength * jump));
             }
-            Control::Force => held.resize(width - 1, 0.0),
+            Drive::Force => held.resize(width - 1, 0.0),
         }
         held.push(0.0);
         for at in 1..self.parts.len() {
@@ -96,18 +96,18 @@ impl Lines {
         let branch = move |(own, held): (&Branch, &f64)| {
             let x = own.rate * since;
             let left = held * (-x).exp();
-            match self.control {
-                Control::Deformation => left - own.strength / own.rate * line.slope * (-x).exp_m1(),
-                Control::Force => {
+            match self.drive {
+                Drive::Deformation => left - own.strength / own.rate * line.slope * (-x).exp_m1(),
+                Drive::Force => {
                     let [first, last] = weights(x);
                     left + own.strength * (line.from * first + to * last)
                 }
             }
         };
         let flowed = held.get(self.branches.len()).copied().unwrap_or(0.0);
-        let flowed = match self.control {
-            Control::Deformation => 0.0,
-            Control::Force => flowed + self.dashpot * 0.5 * since * (line.from + to),
+        let flowed = match self.drive {
+            Drive::Deformation => 0.0,
+            Drive::Force => flowed + self.dashpot * 0.5 * since * (line.from + to),
         };
         self.branches.iter().zip(held).map(branch).chain([flowed])
     }
@@ -129,8 +129,8 @@ impl Lines {
     fn answer(&self, held: &[f64], line: Line, since: f64) -> f64 {
         let of_branches: f64 = self.grown(held, line, since).sum();
         let at_once = self.spring * (line.from + line.slope * since);
-        let by_rate = match self.control {
-            Control::Deformation if self.dashpot > 0.0 => self.dashpot * line.slope,
+        let by_rate = match self.drive {
+            Drive::Deformation if self.dashpot > 0.0 => self.dashpot * line.slope,
             _ => 0.0,
         };
         at_once + by_rate + of_branches
@@ -139,15 +139,15 @@ impl Lines {
     /// How fast the answer changes so long after a line begins.
     fn slope(&self, held: &[f64], line: Line, since: f64) -> f64 {
         let value = line.from + line.slope * since;
-        let branch = |(own, held): (&Branch, f64)| match self.control {
-            Control::Deformation => own.strength * line.slope - own.rate * held,
-            Control::Force => own.rate * (own.strength * value - held),
+        let branch = |(own, held): (&Branch, f64)| match self.drive {
+            Drive::Deformation => own.strength * line.slope - own.rate * held,
+            Drive::Force => own.rate * (own.strength * value - held),
         };
         let held = self.grown(held, line, since);
         let of_branches: f64 = self.branches.iter().zip(held).map(branch).sum();
-        let flow = match self.control {
-            Control::Deformation => 0.0,
-            Control::Force => self.dashpot * value,
+        let flow = match self.drive {
+            Drive::Deformation => 0.0,
+            Drive::Force => self.dashpot * value,
         };
         self.spring * line.slope + flow + of_branches
     }
@@ -209,8 +209,8 @@ mod tests {
                 model = Model::series([model, part(Dashpot { damping: stream.between(1e3, 1e6) })]);
             }
             let specimen = Specimen::new(&model).unwrap();
-            for control in [Control::Deformation, Control::Force] {
-                let unit = if matches!(control, Control::Force) { 1e3 } else { 0.01 };
+            for drive in [Drive::Deformation, Drive::Force] {
+                let unit = if matches!(drive, Drive::Force) { 1e3 } else { 0.01 };
                 let mut time = 0.0;
                 let points: Vec<(f64, f64)> = (0..20)
                     .map(|at| {
@@ -221,14 +221,14 @@ mod tests {
                     })
                     .collect();
                 let history = History::through(points.iter().copied());
-                let own = Lines::of(&model, control, &history).unwrap();
+                let own = Lines::of(&model, drive, &history).unwrap();
                 let right = |time: f64| {
                     let at = Instant::after(time);
-                    match control {
-                        Control::Force => {
+                    match drive {
+                        Drive::Force => {
                             deformation(specimen.kelvin().unwrap(), &history, at).total()
                         }
-                        Control::Deformation => force(specimen.maxwell().unwrap(), &history, at),
+                        Drive::Deformation => force(specimen.maxwell().unwrap(), &history, at),
                     }
                 };
                 let peak = own.peak();
@@ -238,7 +238,7 @@ mod tests {
                     let (found, right) = (own.value(time), right(time));
                     assert!(
                         (found - right).abs() <= 1e-11 * peak.1.abs(),
-                        "{case} at {time}: {found} and {right}, {control:?}"
+                        "{case} at {time}: {found} and {right}, {drive:?}"
                     );
                     assert!(found.abs() <= peak.1.abs() * (1.0 + 1e-12), "{case}: {peak:?}");
                 }
@@ -251,8 +251,8 @@ mod tests {
         let (spring, dashpot) = (part(Spring { stiffness: 1e4 }), part(Dashpot { damping: 1e2 }));
         let model = Model::parallel([spring, dashpot]);
         let jump = History::through([(0.0, 1e-3), (1.0, 1e-3)].into_iter());
-        assert!(Lines::of(&model, Control::Deformation, &jump).is_none());
+        assert!(Lines::of(&model, Drive::Deformation, &jump).is_none());
         let ramp = History::through([(0.0, 0.0), (1.0, 1e-3)].into_iter());
-        assert!(Lines::of(&model, Control::Deformation, &ramp).is_some());
+        assert!(Lines::of(&model, Drive::Deformation, &ramp).is_some());
     }
 }

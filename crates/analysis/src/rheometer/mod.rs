@@ -1,10 +1,9 @@
 //! The virtual rheometer: a model tested alone, in closed form and by simulation.
 //!
-//! Each protocol of the register puts a force or a deformation on a model and looks at the answer,
-//! twice: from the model object ([`dashpot_rheology::LinearModel`]) as a sum of modes, and from the
-//! network of the model, which is compiled and solved without knowledge of the modes. The report
-//! holds both, and how far they are apart. A model that is not linear has no modes: of it the report
-//! holds what the network gives, with its error.
+//! Each protocol of the register puts a force or a deformation on a model and looks at the answer, twice: from the
+//! model object ([`dashpot_rheology::LinearModel`]) as a sum of modes, and from the network of the model, which is
+//! compiled and solved without knowledge of the modes. The report holds both, and how far they are apart. A model that
+//! is not linear has no modes: of it the report holds what the network gives, with its error.
 //!
 //! # Examples
 //!

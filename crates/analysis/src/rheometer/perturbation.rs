@@ -46,8 +46,7 @@ pub(super) fn perturbed(model: &Model, seed: u64) -> Model {
     copy
 }
 
-/// Moves each coefficient of the equations by a rounding of the greatest one in its row, up or down
-/// at random.
+/// Moves each coefficient of the equations by a rounding of the greatest one in its row, up or down at random.
 pub(super) fn perturb(system: &mut System, seed: u64) {
     let mut stream = Stream::new(seed);
     for matrix in [&mut system.jacobian, &mut system.input_matrix] {

@@ -88,8 +88,7 @@ pub struct Computed {
 /// How far an independent computation is from the model object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disagreement {
-    /// The largest difference, in the unit of the series (rad for a loss factor, where the loss
-    /// angles are compared).
+    /// The largest difference, in the unit of the series (rad for a loss factor, where the loss angles are compared).
     pub largest: f64,
     /// Where that is: time \[s\] or frequency \[Hz\].
     pub at: f64,

@@ -5,6 +5,7 @@ use dashpot_network::{Model, Network, Node, first_nonlinear};
 
 use super::{
     Obstacle,
+    answer::Drive,
     history::{History, Instant, Side},
     perturbation::{CAUTION, SEEDS, perturb, perturbed},
     solved,
@@ -20,7 +21,6 @@ const WIDE: f64 = 1e9;
 /// By how much the time is shortened each time that a simulation is declined.
 const SHORTENING: f64 = 10.0;
 
-/// What a simulation found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Simulation {
     /// Name of the method.
@@ -177,20 +177,11 @@ fn difference(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
 /// Name of the connection that a model becomes.
 pub(super) const NAME: &str = "model";
 
-/// What is prescribed at the head of the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Control {
-    /// Its force.
-    Force,
-    /// Its deformation.
-    Deformation,
-}
-
 /// Models in a row between a massless head and the ground, and what is read off them.
 #[derive(Debug)]
 pub(super) struct Rig<'a> {
     chain: Vec<(&'static str, Model)>,
-    control: Control,
+    drive: Drive,
     history: &'a History,
     /// Names of the outputs that are read.
     pub(super) outputs: Vec<String>,
@@ -199,22 +190,22 @@ pub(super) struct Rig<'a> {
 impl<'a> Rig<'a> {
     /// A rig for `model`; its one output is the deformation under a given force, or the force under
     /// a given deformation.
-    pub(super) fn new(model: &Model, control: Control, history: &'a History) -> Self {
-        let output = match control {
-            Control::Force => format!("{NAME}.deformation"),
-            Control::Deformation => format!("{NAME}.force"),
+    pub(super) fn new(model: &Model, drive: Drive, history: &'a History) -> Self {
+        let output = match drive {
+            Drive::Force => format!("{NAME}.deformation"),
+            Drive::Deformation => format!("{NAME}.force"),
         };
-        Self { chain: vec![(NAME, model.clone())], control, history, outputs: vec![output] }
+        Self { chain: vec![(NAME, model.clone())], drive, history, outputs: vec![output] }
     }
 
     /// A rig for models in a row, from the head on; its outputs are their deformations.
     pub(super) fn chain(
         chain: Vec<(&'static str, Model)>,
-        control: Control,
+        drive: Drive,
         history: &'a History,
     ) -> Self {
         let outputs = chain.iter().map(|(name, _)| format!("{name}.deformation")).collect();
-        Self { chain, control, history, outputs }
+        Self { chain, drive, history, outputs }
     }
 
     /// The same rig with the models [`perturbed`].
@@ -237,13 +228,13 @@ impl<'a> Rig<'a> {
     pub(super) fn network(&self) -> Option<Network> {
         let waveform = self.history.waveform()?;
         let mut network = Network::new();
-        let head = match self.control {
-            Control::Force => {
+        let head = match self.drive {
+            Drive::Force => {
                 let head = network.add_node(Node::massless("head"));
                 network.add_load("force", head, waveform);
                 head
             }
-            Control::Deformation => network.add_node(Node::prescribed("head", waveform)),
+            Drive::Deformation => network.add_node(Node::prescribed("head", waveform)),
         };
         let mut from = head;
         for (at, (name, model)) in self.chain.iter().enumerate() {

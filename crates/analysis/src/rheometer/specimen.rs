@@ -212,8 +212,7 @@ pub(super) struct Peak {
     pub(super) value: f64,
 }
 
-/// The highest of the peaks that the loss factor has at finite frequencies; `None` where it has
-/// none.
+/// The highest of the peaks that the loss factor has at finite frequencies; `None` where it has none.
 pub(super) fn highest_loss_factor(specimen: &Specimen) -> Option<Peak> {
     let linear = specimen.linear()?;
     let (fastest, slowest) = specimen.range_of_times();

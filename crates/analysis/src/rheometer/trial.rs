@@ -2,9 +2,10 @@
 
 use super::{
     Specimen,
+    answer::Drive,
     history::{self, History, Instant, Parts, instants},
     report::{Computation, Figure, RheometerReport, Series, Setting, series},
-    simulation::{Control, Rig, Simulation},
+    simulation::{Rig, Simulation},
 };
 use crate::{Choice, Column};
 
@@ -12,7 +13,7 @@ use crate::{Choice, Column};
 pub(super) struct Trial<'a> {
     specimen: &'a Specimen,
     history: History,
-    control: Control,
+    drive: Drive,
     instants: Vec<Instant>,
     times: Vec<f64>,
     methods: &'a [Choice],
@@ -23,17 +24,17 @@ impl<'a> Trial<'a> {
     /// Simulates the specimen under `history`, looked at about `points` times.
     pub(super) fn new(
         specimen: &'a Specimen,
-        control: Control,
+        drive: Drive,
         history: History,
         points: usize,
         methods: &'a [Choice],
     ) -> Self {
         let instants = instants(&history, specimen.range_of_times().0, points);
-        let rig = Rig::new(specimen.model(), control, &history);
+        let rig = Rig::new(specimen.model(), drive, &history);
         let simulate = |method: &Choice| Simulation::new(&rig, method, &instants);
         let simulations = methods.iter().map(simulate).collect();
         let times = instants.iter().map(|instant| instant.time).collect();
-        Self { specimen, history, control, instants, times, methods, simulations }
+        Self { specimen, history, drive, instants, times, methods, simulations }
     }
 
     /// The parts of the deformation at an instant, in closed form; zero for what bears no force.
@@ -48,10 +49,10 @@ impl<'a> Trial<'a> {
         if self.specimen.linear().is_none() {
             return f64::INFINITY;
         }
-        match (self.control, self.specimen.maxwell()) {
-            (Control::Force, _) => self.parts(at).total(),
-            (Control::Deformation, Some(form)) => history::force(form, &self.history, at),
-            (Control::Deformation, None) => f64::INFINITY,
+        match (self.drive, self.specimen.maxwell()) {
+            (Drive::Force, _) => self.parts(at).total(),
+            (Drive::Deformation, Some(form)) => history::force(form, &self.history, at),
+            (Drive::Deformation, None) => f64::INFINITY,
         }
     }
 
@@ -72,9 +73,9 @@ impl<'a> Trial<'a> {
         let known = self.instants.iter().filter(|_| is_linear);
         let model = known.map(|&at| self.answer(at)).collect();
         let tracks = self.simulations.iter().filter_map(|simulation| simulation.tracks.first());
-        let (name, unit) = match self.control {
-            Control::Force => ("deformation", "m"),
-            Control::Deformation => ("force", "N"),
+        let (name, unit) = match self.drive {
+            Drive::Force => ("deformation", "m"),
+            Drive::Deformation => ("force", "N"),
         };
         series(name, unit, &self.times, model, tracks)
     }
@@ -86,7 +87,7 @@ impl<'a> Trial<'a> {
         let names: Vec<&str> = chain.iter().map(|(name, _)| *name).collect();
         let mut simulations = Vec::new();
         if !chain.is_empty() {
-            let rig = Rig::chain(chain, self.control, &self.history);
+            let rig = Rig::chain(chain, self.drive, &self.history);
             let simulate = |method: &Choice| Simulation::new(&rig, method, &self.instants);
             simulations.extend(self.methods.iter().map(simulate));
         }
@@ -109,9 +110,9 @@ impl<'a> Trial<'a> {
         settings: Vec<Setting>,
         looks: &[(&'static str, Instant)],
     ) -> RheometerReport {
-        let (name, unit) = match self.control {
-            Control::Force => ("force", "N"),
-            Control::Deformation => ("deformation", "m"),
+        let (name, unit) = match self.drive {
+            Drive::Force => ("force", "N"),
+            Drive::Deformation => ("deformation", "m"),
         };
         let values = self.instants.iter().map(|&at| self.history.value(at)).collect();
         let computation = |simulation: &Simulation| Computation {

@@ -33,13 +33,9 @@ pub(crate) struct Found {
 /// Solves by `method` and, where that fails and `others` are given, by them, the last one first. Where nothing is known
 /// of the errors of the one that does not, those that only lacked work are among the `others` again.
 ///
-/// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something
-/// to the next; none more than `most`, and those after the first no more than a while, because what ends one
-/// method seldom lets another through.
-///
-/// # Errors
-///
-/// What became of the first one, and of the others.
+/// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something to the
+/// next; none more than `most`, and those after the first no more than a while, because what ends one method seldom
+/// lets another through. Errors: what became of the first one, and of the others.
 pub(crate) fn first_that_solves(
     task: &Task<'_>,
     run: &Run,

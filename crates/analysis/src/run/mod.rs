@@ -113,8 +113,7 @@ pub fn reported_measures(
     Ok(selected.into_iter().map(|entry| entry.key).collect())
 }
 
-/// Which measures that [`solve_assembly`] would report can have no value whatever the solution, each
-/// with the reason.
+/// Which measures that [`solve_assembly`] would report can have no value whatever the solution, each with the reason.
 ///
 /// # Errors
 ///

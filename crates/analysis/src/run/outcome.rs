@@ -31,12 +31,8 @@ use crate::{
     report::zeros::settle_zeros,
 };
 
-/// The report of a run by the method of the task; what it took in all, and why it was that method, are
-/// left open.
-///
-/// # Errors
-///
-/// A solution that cannot be trusted, or that lacks what the report needs.
+/// The report of a run by the method of the task; what it took in all, and why it was that method, are left open.
+/// Errors: a solution that cannot be trusted, or that lacks what the report needs.
 pub(super) fn report(
     assembly: &Arc<Assembly>,
     effects: &[&'static str],
@@ -179,7 +175,6 @@ fn measures(
     .collect()
 }
 
-/// What is reported of a measure.
 pub(crate) fn measure_report(
     entry: &Selected,
     reading: Reading,
@@ -263,8 +258,7 @@ fn without_idle_forces(
 }
 
 impl Idle {
-    /// Whether another force of the slider within a span of time \[s\] would change what is measured in
-    /// an element.
+    /// Whether another force of the slider within a span of time \[s\] would change what is measured in an element.
     fn changes(
         &self,
         report: &MeasureReport,

@@ -27,7 +27,6 @@ use crate::{
     report::compression::{ROUNDING, is_as_thick},
 };
 
-/// What warnings are made of.
 pub(crate) struct Findings<'a> {
     pub(crate) solution: &'a Solution<'a>,
     pub(crate) accuracy: &'a Accuracy,

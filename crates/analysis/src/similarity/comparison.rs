@@ -54,8 +54,7 @@ impl Similarity {
     /// Constants of a model that is drawn in another way agree within this.
     pub const DRAWN: f64 = 1e-11;
 
-    /// Compares two networks. Nodes, elements and branches with other names are taken by their
-    /// places.
+    /// Compares two networks. Nodes, elements and branches with other names are taken by their places.
     ///
     /// What one can draw in several ways is one: the order of branches; a four-parameter padding as a
     /// Burgers model or as two Maxwell elements, whose constants are compared within

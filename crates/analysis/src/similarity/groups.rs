@@ -140,7 +140,6 @@ impl Groups {
     }
 }
 
-/// A symbol with its exponent.
 fn raised(symbol: &str, exponent: f64) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let whole = (1_u8..10).find(|own| (f64::from(*own) - exponent).abs() < f64::EPSILON);
@@ -196,8 +195,7 @@ pub struct Quantity {
 
 /// All parameters of a network, and its structure.
 ///
-/// A height of fall counts by the speed at touch. The duration of the run is no parameter of the
-/// network.
+/// A height of fall counts by the speed at touch. The duration of the run is no parameter of the network.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Inventory {
     /// The parameters, in the order of nodes, elements, loads and effects.
@@ -223,7 +221,6 @@ impl Inventory {
         self.quantities.iter().find(|quantity| quantity.name == name)
     }
 
-    /// The names of all that there is.
     pub(super) fn names(&self) -> Vec<&str> {
         let words = self.structure.keys().map(String::as_str);
         let mut names: Vec<&str> =
@@ -256,11 +253,7 @@ impl Visit for Inventory {
     }
 }
 
-/// The network with another value of one parameter.
-///
-/// # Errors
-///
-/// A value that is out of range.
+/// The network with another value of one parameter. Errors: a value that is out of range.
 pub(super) fn with_value(
     network: &Network,
     name: &str,

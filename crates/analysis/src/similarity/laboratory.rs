@@ -11,8 +11,7 @@ use super::{
     scaled,
 };
 
-/// Wishes that follow from others may differ from them by so much, relatively: they are given with
-/// few digits.
+/// Wishes that follow from others may differ from them by so much, relatively: they are given with few digits.
 const SAME: f64 = 1e-9;
 /// The parameter of gravity.
 const GRAVITY: &str = "gravity.value";
@@ -58,8 +57,7 @@ impl Laboratory {
     ///
     /// # Errors
     ///
-    /// Any [`SimilarityError`]: unknown names, values that no scale reaches, wishes that contradict
-    /// each other.
+    /// Any [`SimilarityError`]: unknown names, values that no scale reaches, wishes that contradict each other.
     pub fn design(real: &Network, wishes: &[Wish]) -> Result<Self, SimilarityError> {
         let (groups, inventory) = (Groups::of(real)?, Inventory::of(real)?);
         let mut basis = Basis::default();

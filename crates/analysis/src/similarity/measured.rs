@@ -22,8 +22,7 @@ pub struct Measured {
     pub key: String,
     /// Its SI unit.
     pub unit: &'static str,
-    /// Its values, where it has any: that of the first, and that of the second over the factor of
-    /// the measure.
+    /// Its values, where it has any: that of the first, and that of the second over the factor of the measure.
     pub values: [Option<f64>; 2],
     /// How far they are apart, over the larger one of the two values.
     pub apart: Option<f64>,

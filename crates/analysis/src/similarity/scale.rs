@@ -90,9 +90,8 @@ pub fn scaled(network: &Network, scale: &Scale) -> Result<Network, InvalidParame
     walk(network, &mut visit)
 }
 
-/// The measure that tells the same of a scene that is similar at this scale: its parameters times the
-/// factors of their dimensions. A measure with a time of its own has another kind for its counterpart, or
-/// none.
+/// The measure that tells the same of a scene that is similar at this scale: its parameters times the factors of their
+/// dimensions. A measure with a time of its own has another kind for its counterpart, or none.
 pub(super) fn similar_measure(measure: &dyn Measure, scale: &Scale) -> Option<Arc<dyn Measure>> {
     let general = measure.general()?;
     let mut visit = *scale;
@@ -100,8 +99,7 @@ pub(super) fn similar_measure(measure: &dyn Measure, scale: &Scale) -> Option<Ar
     general.with_values(&values).ok()
 }
 
-/// Exponents in this part of one are told from their neighbours: no reference has larger
-/// determinants than a few.
+/// Exponents in this part of one are told from their neighbours: no reference has larger determinants than a few.
 const FINEST: f64 = 5040.0;
 
 /// Dimensions none of which is a product of powers of the others.

@@ -25,14 +25,13 @@ mod signals;
 
 use forces::{only_at_rest, resting_from_switches};
 use grazing::ForceOf;
-pub(crate) use grazing::{UndecidedReleases, undecided_releases};
+pub(crate) use grazing::{UndecidedReleases, releases_in_ripples, undecided_ends};
 use signals::{Signals, Twins};
 
 /// Errors of stepping methods in parts of their relative tolerance and of the largest value: they
 /// are 100 to 700, of whatever method, at tolerances from 1e-4 to 1e-10.
 const ERRORS_PER_TOLERANCE: f64 = 1e3;
-/// Part of the largest force beyond which a pull is one at any tolerance; finer solutions tell
-/// where it was an error.
+/// Part of the largest force beyond which a pull is one at any tolerance; finer solutions tell where it was an error.
 const LARGEST_THRESHOLD: f64 = 1e-2;
 
 /// The part of the largest force below which a pull may be an error of a method of this relative
@@ -276,10 +275,9 @@ impl<'a> Solution<'a> {
     /// The impact as the node number `node` feels it: that of its body, the nodes that rigid links
     /// join to it, if an impactor belongs to it; else that of the scene.
     ///
-    /// What counts is the sum of the forces that the elements put on the body, and of a padding with a
-    /// face that it strikes all that belongs to the impact of that. Whichever way it
-    /// first goes is the way it pushes: against the speed of a body that strikes, along with that
-    /// of a body that is struck from behind.
+    /// What counts is the sum of the forces that the elements put on the body, and of a padding with a face that it
+    /// strikes all that belongs to the impact of that. Whichever way it first goes is the way it pushes: against the
+    /// speed of a body that strikes, along with that of a body that is struck from behind.
     pub fn node_impact(&self, node: usize) -> Impact {
         let body = self.assembly.nodes[node].body;
         if self.has_impactor[body] { self.body_impact(body) } else { self.scene_impact() }
@@ -384,7 +382,6 @@ impl<'a> Solution<'a> {
         })
     }
 
-    /// The impact of such an element.
     fn impact_through(&self, element: usize, face: FaceContact) -> Option<Through> {
         let connections = &self.assembly.connections;
         let struck = Struck {
@@ -420,8 +417,7 @@ impl<'a> Solution<'a> {
         self.members().mass(self.assembly.nodes[node].body)
     }
 
-    /// The force on a body with the sign with which what acts on it begins; `None` if nothing
-    /// touches it.
+    /// The force on a body with the sign with which what acts on it begins; `None` if nothing touches it.
     fn push_on(&self, body: usize) -> Option<Signal> {
         let force = resting_from_switches(self.force_on(body)?, &self.trajectory.switches);
         let pushes = first_pushes(&force, &self.body_jumps(body));
@@ -450,8 +446,7 @@ impl<'a> Solution<'a> {
         if connection.never_pulls { NO_PULL } else { self.threshold }
     }
 
-    /// The same for the force on a body, which never pulls if all that it meets lies on one side of
-    /// it and does not.
+    /// The same for the force on a body, which never pulls if all that it meets lies on one side of it and does not.
     fn threshold_of_body(&self, body: usize) -> f64 {
         let mut touching = self.members().connections(self.assembly, body);
         let mut side = 0.0;
@@ -480,8 +475,7 @@ impl<'a> Solution<'a> {
         })
     }
 
-    /// Whether the connection can deform and has an impactor, or what is rigidly linked to one, at
-    /// one of its ends.
+    /// Whether the connection can deform and has an impactor, or what is rigidly linked to one, at one of its ends.
     pub fn touches_impactor(&self, connection: &ConnectionOutputs) -> bool {
         contacts::is_touching(self.assembly, connection, &self.has_impactor)
     }

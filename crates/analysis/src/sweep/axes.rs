@@ -59,9 +59,8 @@ impl Sweep {
         self
     }
 
-    /// Solves the scenes that `pose` makes of one value for each axis, or says why there is none, and
-    /// reports the measures with these keys; of none all that the first scene reports. All threads of the
-    /// machine share the work.
+    /// Solves the scenes that `pose` makes of one value for each axis, or says why there is none, and reports the
+    /// measures with these keys; of none all that the first scene reports. All threads of the machine share the work.
     ///
     /// # Errors
     ///
@@ -175,8 +174,7 @@ impl SweepRow<'_> {
     }
 }
 
-/// Every combination of the values of some parameters, by their positions; the last parameter varies
-/// fastest.
+/// Every combination of the values of some parameters, by their positions; the last parameter varies fastest.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grid {
     counts: Vec<usize>,
@@ -216,8 +214,7 @@ impl Grid {
         places
     }
 
-    /// The point at which each parameter takes the value at this position; `None` where one has no such
-    /// value.
+    /// The point at which each parameter takes the value at this position; `None` where one has no such value.
     pub fn point(&self, places: &[usize]) -> Option<usize> {
         let is_one = places.len() == self.counts.len();
         let mut pairs = places.iter().zip(&self.counts);

@@ -44,8 +44,7 @@ impl Flank {
         [first, first + third * self.bend[0], last - third * self.bend[1], last]
     }
 
-    /// Whether the rate keeps its sign within the step, as far as its values and slopes at both ends
-    /// tell.
+    /// Whether the rate keeps its sign within the step, as far as its values and slopes at both ends tell.
     pub(super) fn is_straight(&self, step: f64) -> bool {
         // It turns up once, which makes no peak.
         self.is_steady(step) || self.rate[0] < 0.0 && self.rate[1] > 0.0

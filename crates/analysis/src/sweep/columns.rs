@@ -1,22 +1,15 @@
 //! What a sweep reports of each point, by the keys of measures.
 
-use std::sync::Arc;
-
-use dashpot_network::parameters::{Kind as _, registered};
+use dashpot_network::parameters::Kind as _;
 
 use super::{Column, ScenePoint, SweepError};
 use crate::{
     MeasureWish, RunError,
     measures::{
-        Family, MEASURES, Measure, PeakDeformation,
+        Family, PeakDeformation,
         selection::{Selected, ask, select},
     },
 };
-
-/// The measure of this word with its parameters as they are by default.
-pub fn measure_named(word: &str) -> Option<Arc<dyn Measure>> {
-    registered(MEASURES, word).map(|own| (own.about.default)())
-}
 
 /// The columns of these measures in a scene, and what the scene is to be asked for: all that it reports
 /// where none is named. Behind them stands, for each element with a thickness that they are about, or

@@ -70,10 +70,10 @@ impl Full<'_> {
         flaws: &mut Flaws,
     ) {
         for (at, column) in self.columns.iter().enumerate() {
-            let cause = |measure| Cause::no_value(&column.key, measure);
+            let cause = || Cause::no_value(&column.key, Some(report));
             let gap = |cause, is_infinite| Gap { point, column: Some(at), cause, is_infinite };
             let Some(measure) = report.measure(&column.key) else {
-                flaws.gaps.push(gap(cause(None), false));
+                flaws.gaps.push(gap(cause(), false));
                 continue;
             };
             let thickness =
@@ -84,7 +84,7 @@ impl Full<'_> {
                 errors[at] = measure.error.map_or(f64::NAN, |error| error / unit);
                 flaws.cut.extend(report.is_so_far(measure).then_some(at));
             } else {
-                flaws.gaps.push(gap(cause(Some(measure)), measure.is_infinite()));
+                flaws.gaps.push(gap(cause(), measure.is_infinite()));
             }
         }
     }

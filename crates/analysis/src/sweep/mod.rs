@@ -41,7 +41,7 @@ use dashpot_network::{Detail, Network};
 pub(crate) use self::parallel::share;
 pub use self::{
     axes::{Axis, Grid, Sweep, SweepRow, Swept, axis},
-    columns::{columns, measure_named},
+    columns::columns,
     estimates::{Estimates, SweepOptions},
     forces::{ContactForce, ContactForces, PoseAt},
     parallel::Watch,

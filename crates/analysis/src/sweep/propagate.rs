@@ -56,10 +56,9 @@ impl Peak {
 }
 
 impl<const N: usize> ScenePoint<'_, N> {
-    /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the
-    /// start, or does not fall through zero within the run, or comes near to zero before, or one of
-    /// both turns twice within a step where it is largest, or comes near to its peak once more after the
-    /// impact, or the system is too stiff.
+    /// Solves the impact. `None` where it is not of the plain kind: the force does not push from the start, or does not
+    /// fall through zero within the run, or comes near to zero before, or one of both turns twice within a step where
+    /// it is largest, or comes near to its peak once more after the impact, or the system is too stiff.
     pub(super) fn solve(&self, wanted: Wanted) -> Option<Impact> {
         let mut propagate = Propagation::new(self, wanted)?;
         while propagate.start() < self.end {

@@ -72,7 +72,6 @@ serialized!(OfGrid<'_>, own => {
     },
 });
 
-/// A gap of a sweep.
 struct Missing<'r>(&'r SweepReport, &'r Gap);
 
 serialized!(Missing<'_>, own => {

@@ -180,8 +180,7 @@ impl<const N: usize> Integrals<N> {
         Amounts::of((&force, &speed), &weights, self.wanted.power, floor)
     }
 
-    /// Adds up the work from the state `z` at the beginning of a step to the end of the run, which lies so
-    /// far ahead.
+    /// Adds up the work from the state `z` at the beginning of a step to the end of the run, which lies so far ahead.
     pub(super) fn complete(&mut self, carry: &Square<N>, z: &[f64; N], ahead: f64) {
         let (mut state, mut left) = (*z, ahead);
         let work = self.sure.plus(self.last).work;

@@ -40,7 +40,6 @@ pub(super) struct Besides {
 }
 
 impl Besides {
-    /// Those of these numbers.
     pub(super) fn of(numbers: &[f64]) -> Self {
         let &[.., thickness, thinnest, gap, fall] = numbers else {
             return Self { thickness: f64::NAN, thinnest: f64::NAN, gap: f64::NAN, fall: f64::NAN };

@@ -47,8 +47,7 @@ pub struct Limit {
     pub kind: LimitKind,
     /// The contact or stop, for instance `padding.contact`.
     pub name: String,
-    /// By how much its force \[N\] or deformation \[m\] may swing: the force at rest, or what is left
-    /// to the stop.
+    /// By how much its force \[N\] or deformation \[m\] may swing: the force at rest, or what is left to the stop.
     pub reserve: f64,
     /// The element, in [`Assembly::connections`].
     element: usize,
@@ -215,8 +214,7 @@ impl Vibration {
         &self.limits
     }
 
-    /// The limits that an oscillation of this amplitude exceeds; `read` is what it is for one unit of the
-    /// drive.
+    /// The limits that an oscillation of this amplitude exceeds; `read` is what it is for one unit of the drive.
     pub(super) fn exceeded(
         &self,
         read: impl Fn(&Observed) -> Option<Found>,

@@ -43,7 +43,6 @@ impl<'a> Curve<'a> {
         all.min_by(|a, b| a.error.total_cmp(&b.error))
     }
 
-    /// The same as a swing.
     pub(super) fn swing(&self, omega: f64) -> Option<Swing> {
         self.at(omega).map(|found| Swing::of(found.value, found.error))
     }

@@ -148,8 +148,7 @@ pub(super) fn require_linear(network: &Network) -> Result<(), VibrationError> {
     Ok(())
 }
 
-/// The same for what the network was compiled to, where an effect may have put in more: by the name
-/// of that element.
+/// The same for what the network was compiled to, where an effect may have put in more: by the name of that element.
 pub(super) fn require_linear_system(assembly: &Assembly) -> Result<(), VibrationError> {
     if assembly.system.terms.is_empty() && assembly.switching.is_none() {
         return Ok(());

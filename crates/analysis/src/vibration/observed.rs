@@ -39,9 +39,8 @@ struct Reading {
 
 /// A quantity with the ways to read it.
 ///
-/// A displacement that is small against that of the base is a small difference as it stands, and
-/// the acceleration over (iω)² is not; at low frequencies it is the other way round. The one with
-/// the smallest error counts.
+/// A displacement that is small against that of the base is a small difference as it stands, and the acceleration over
+/// (iω)² is not; at low frequencies it is the other way round. The one with the smallest error counts.
 #[derive(Debug, Clone)]
 pub(super) struct Observed {
     /// The node or element.

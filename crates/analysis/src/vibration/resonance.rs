@@ -211,8 +211,7 @@ impl Curve<'_> {
         all
     }
 
-    /// A sample between two others at which `value` is negative, by golden section; `None` where
-    /// none is found.
+    /// A sample between two others at which `value` is negative, by golden section; `None` where none is found.
     fn beyond(&self, left: Probe, right: Probe, value: impl Fn(&Probe) -> f64) -> Option<Probe> {
         let look = |omega: f64| match self.probe(omega) {
             Some(probe) if value(&probe) < 0.0 => ControlFlow::Break(Some(probe)),

@@ -35,8 +35,7 @@ pub struct SweepSettings {
     pub to: Option<f64>,
     /// How many frequencies are listed, at equal ratios, 2 or more.
     pub points: usize,
-    /// The nodes that are looked at, or the supports where a load drives; empty for every mass, or
-    /// every support.
+    /// The nodes that are looked at, or the supports where a load drives; empty for every mass, or every support.
     pub of: Vec<String>,
 }
 

@@ -1,5 +1,4 @@
-//! What accuracy costs: the true error of every method over a ladder of tolerances, against time and
-//! work.
+//! What accuracy costs: the true error of every method over a ladder of tolerances, against time and work.
 //!
 //! [`work_precision`] solves a network by every method at every tolerance, and compares each solution with one
 //! that is known better ([`ReferenceSolution`]): the exact solution where there is one, else two solutions by

@@ -159,8 +159,7 @@ impl<'a> Judge<'a> {
         .collect()
     }
 
-    /// Where the two solutions differ by more than both of their error bars, and events that only one
-    /// of them has.
+    /// Where the two solutions differ by more than both of their error bars, and events that only one of them has.
     pub(super) fn contradictions(&self) -> Vec<Underestimate> {
         let Some(witness) = &self.witness else { return Vec::new() };
         let underestimate = |subject, error, bar| Underestimate {

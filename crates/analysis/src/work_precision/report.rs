@@ -20,8 +20,7 @@ pub struct CostReport {
     pub points: Vec<CostPoint>,
     /// Methods that decline, and solutions that failed.
     pub failures: Vec<CostFailure>,
-    /// Errors that a run does not tell of, and contradictions between the solutions that errors are
-    /// taken from.
+    /// Errors that a run does not tell of, and contradictions between the solutions that errors are taken from.
     pub underestimates: Vec<Underestimate>,
 }
 
@@ -39,8 +38,7 @@ pub struct ReferenceSolution {
     pub witness: Option<(&'static str, f64)>,
     /// How far the two differ in the state, relative as [`CostPoint::state`].
     pub state_agreement: Option<f64>,
-    /// How far they differ in the times of events, relative as [`CostPoint::events`]; `None` where
-    /// there are none.
+    /// How far they differ in the times of events, relative as [`CostPoint::events`]; `None` where there are none.
     pub event_agreement: Option<f64>,
     /// The largest relative difference of any measure.
     pub measure_agreement: Option<f64>,
@@ -57,8 +55,7 @@ pub struct TrueMeasure {
     pub value: Option<f64>,
     /// The size to which errors are relative.
     pub size: f64,
-    /// How far the true value may be off, relative: the bound of `exact`, else the difference between
-    /// both solutions.
+    /// How far the true value may be off, relative: the bound of `exact`, else the difference between both solutions.
     pub known_within: f64,
 }
 
@@ -96,8 +93,7 @@ pub struct CostPoint {
     /// Time to solve and to read all measures \[s\], without compiling the network and without the
     /// further solutions that an error bar takes.
     pub time: Spread,
-    /// The part of it until the integration has ended \[s\]; `exact` computes nothing before it is
-    /// asked for.
+    /// The part of it until the integration has ended \[s\]; `exact` computes nothing before it is asked for.
     pub integration: Spread,
     /// Number of repeats.
     pub repeats: usize,
@@ -194,8 +190,7 @@ pub struct Underestimate {
     pub error: f64,
     /// The bar that was stated, relative.
     pub bar: Option<f64>,
-    /// Whether the run at least warns that the accuracy wanted is not reached; if not, it is wrong
-    /// and silent.
+    /// Whether the run at least warns that the accuracy wanted is not reached; if not, it is wrong and silent.
     pub warned: bool,
 }
 

@@ -159,9 +159,8 @@ impl<'a> Probe<'a> {
         largest.iter().enumerate().map(size).collect()
     }
 
-    /// The largest relative difference between the true states and those of `run`, apart from the
-    /// times between a jump in one and the same jump in the other, and from what lies beyond the end
-    /// of either. `None` where nothing moves.
+    /// The largest relative difference between the true states and those of `run`, apart from the times between a jump
+    /// in one and the same jump in the other, and from what lies beyond the end of either. `None` where nothing moves.
     pub(super) fn difference(
         &self,
         reference: &States,

@@ -10,8 +10,7 @@ use crate::RunError;
 const EXACT: usize = 150;
 /// Part of a run from which on its work is told from what has been done so far.
 const EARLY: f64 = 0.05;
-/// How many times as much as it may be that work must then promise to be: the beginning of a run may be the
-/// most of it.
+/// How many times as much as it may be that work must then promise to be: the beginning of a run may be the most of it.
 const MORE: f64 = 4.0;
 
 /// Tells an observer of many solutions as if they were one run, and gives up those of too many steps, or of
@@ -123,8 +122,7 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// The error of a solution in the words that suit: too many steps, or too much work, where it was given
-    /// up here.
+    /// The error of a solution in the words that suit: too many steps, or too much work, where it was given up here.
     pub(super) fn told(&mut self, method: &'static str, error: RunError) -> RunError {
         match (self.given_up.take(), &error) {
             (Some((own, limit)), RunError::Solve(SolveError::Cancelled { .. })) => {

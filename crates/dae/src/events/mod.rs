@@ -9,10 +9,9 @@
 //! than `rtol` times the largest terms of the output so far, so that its error makes no events of an
 //! output that decays to its level, or of two bodies that move together.
 //!
-//! What counts as a crossing is told by [`Signal::crossings`](crate::Signal::crossings): a guard
-//! that starts on its level, up to rounding, is armed by the way in which its output leaves the
-//! level, and does not fire there; an output that touches the level, or ends on it, does not cross
-//! it; a jump across it does.
+//! What counts as a crossing is told by [`Signal::crossings`](crate::Signal::crossings): a guard that starts on its
+//! level, up to rounding, is armed by the way in which its output leaves the level, and does not fire there; an output
+//! that touches the level, or ends on it, does not cross it; a jump across it does.
 
 use crate::{Crossing, Panel, Signal};
 
@@ -40,9 +39,8 @@ pub struct Guard {
     pub direction: Direction,
     /// Whether the run ends at the first crossing.
     pub stops: bool,
-    /// The side of the level on which the output begins, `true` above, where that is known although
-    /// the value may be on the level. `None` lets the guard be armed by the way in which its output
-    /// leaves the level.
+    /// The side of the level on which the output begins, `true` above, where that is known although the value may be on
+    /// the level. `None` lets the guard be armed by the way in which its output leaves the level.
     pub begins: Option<bool>,
     /// The output that it is the rate of, if it is one. A method with a tolerance knows such an output
     /// better than the balances tell that it follows from: what it amounts to in a step is a change of the
@@ -205,8 +203,7 @@ struct Track {
 }
 
 impl Track {
-    /// Goes on along `signal` and tells `visit` the crossings, each with its uncertainty in time by
-    /// `rounding`.
+    /// Goes on along `signal` and tells `visit` the crossings, each with its uncertainty in time by `rounding`.
     fn advance(
         &mut self,
         level: f64,
@@ -261,9 +258,8 @@ impl Track {
     }
 }
 
-/// How many crossings at the begin of a run are none. An output that leaves its level without slope
-/// to the side that is known bends the other way first in the polynomial of the first step, and comes
-/// back within it.
+/// How many crossings at the begin of a run are none. An output that leaves its level without slope to the side that is
+/// known bends the other way first in the polynomial of the first step, and comes back within it.
 fn bent_at_start(crossings: &[Crossing], signal: &Signal, level: f64) -> usize {
     let (Some(first), [out, back, ..]) = (signal.panels.first(), crossings) else { return 0 };
     let way = (out.time - first.start) * out.slope.abs();

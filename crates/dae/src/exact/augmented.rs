@@ -16,7 +16,6 @@ use crate::{LinearForm, Output, System};
 pub(super) struct Span {
     /// Where it begins, dimensionless.
     pub(super) start: f64,
-    /// Where it ends.
     pub(super) end: f64,
     /// The generators at its start, in their own units.
     pub(super) generators: Vec<f64>,
@@ -50,7 +49,6 @@ pub(crate) struct Equations {
     pub(super) matrix: DMatrix<f64>,
     /// The diagonal of `D`.
     pub(super) units: Vec<f64>,
-    /// The generators.
     pub(super) generators: Generators,
     /// The inputs as forms over `[y; g]`.
     inputs: Vec<LinearForm>,
@@ -175,9 +173,8 @@ impl Augmented {
     }
 }
 
-/// The solution of `(most − Mᵀ) w = 1` for the matrix `M` with entries replaced by their sizes off
-/// the diagonal, by elimination without pivots; `None` unless all pivots are positive, and with them
-/// all of `w`.
+/// The solution of `(most − Mᵀ) w = 1` for the matrix `M` with entries replaced by their sizes off the diagonal, by
+/// elimination without pivots; `None` unless all pivots are positive, and with them all of `w`.
 fn weights(matrix: &DMatrix<f64>, most: f64) -> Option<Vec<f64>> {
     let n = matrix.nrows();
     let mut rows: Vec<f64> = matrix.iter().map(|entry| -entry.abs()).collect();

@@ -66,8 +66,7 @@ pub(super) fn power_of_two(x: f64) -> f64 {
     x.log2().round().clamp(-900.0, 900.0).exp2()
 }
 
-/// Sums of the sizes of column and row `i` of the leading block without the diagonal, over the
-/// states that count.
+/// Sums of the sizes of column and row `i` of the leading block without the diagonal, over the states that count.
 fn sums(a: &DMatrix<f64>, n: usize, i: usize, counts: impl Fn(usize) -> bool) -> (f64, f64) {
     let mut column = 0.0;
     let mut row = 0.0;

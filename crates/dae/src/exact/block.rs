@@ -21,8 +21,7 @@ pub(super) struct Block {
     pub(super) matrix: DMatrix<Complex>,
     /// What rounding cut off `D_i`, to be added to it.
     pub(super) low: DMatrix<Complex>,
-    /// How often its contribution counts: once, twice for one of a conjugate pair, or never for
-    /// the other one.
+    /// How often its contribution counts: once, twice for one of a conjugate pair, or never for the other one.
     pub(super) weight: f64,
 }
 
@@ -64,7 +63,6 @@ impl Block {
         self.low[(i, j)] = Complex::new(re_rest, im_rest);
     }
 
-    /// Whether any of it moves, of coordinates that are given for all blocks.
     pub(super) fn moves(&self, coordinates: &[Complex]) -> bool {
         coordinates[self.range()].iter().any(|own| *own != Complex::default())
     }

@@ -62,9 +62,8 @@ impl Block {
         self.largest_discounted(s, vector, 0.0)
     }
 
-    /// What rounding within [`advance`](Self::advance) may change in `|e^{D_i t} v|` for any `t` in
-    /// `[0, s]` and `|v| ≤ vector`, in units of `4 ε`. Zero for a single mode, whose phase is kept to
-    /// twice the digits.
+    /// What rounding within [`advance`](Self::advance) may change in `|e^{D_i t} v|` for any `t` in `[0, s]` and `|v| ≤
+    /// vector`, in units of `4 ε`. Zero for a single mode, whose phase is kept to twice the digits.
     ///
     /// The series err as if each entry of `D_i − shift` were rounded, once for each operation; squared
     /// powers err relative to the largest entry.
@@ -115,9 +114,8 @@ impl Block {
         })
     }
 
-    /// Bounds of `|row · e^{D_i t} c|` and of `|row| |D_i h/4|^n/n! |e^{D_i t} c|` for all `t` in
-    /// `[0, h]`: how large the block's part of an output can be, and how far a polynomial of degree
-    /// `n − 1` can miss it, but for a factor.
+    /// Bounds of `|row · e^{D_i t} c|` and of `|row| |D_i h/4|^n/n! |e^{D_i t} c|` for all `t` in `[0, h]`: how large
+    /// the block's part of an output can be, and how far a polynomial of degree `n − 1` can miss it, but for a factor.
     ///
     /// `sizes` are those of the coordinates `c` at the panel's start.
     pub(super) fn sizes_on_panel(

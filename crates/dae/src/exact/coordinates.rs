@@ -171,10 +171,9 @@ fn span_errors(
 /// The error that the defect `Δ = X⁻¹ Ā X − D` may cause in each modal coordinate within `length`
 /// after a state whose coordinates have these `sizes`.
 ///
-/// To first order it is `∫₀ᵗ e^{D_i (t−s)} Δ_ij e^{D_j s} c_j ds`, which is at most the largest value
-/// of one exponential times the integral of the other; the smaller of the two products counts. The
-/// error drives itself in the same way. Growth that all modes are granted is taken out first, so
-/// that it does not count twice.
+/// To first order it is `∫₀ᵗ e^{D_i (t−s)} Δ_ij e^{D_j s} c_j ds`, which is at most the largest value of one
+/// exponential times the integral of the other; the smaller of the two products counts. The error drives itself in the
+/// same way. Growth that all modes are granted is taken out first, so that it does not count twice.
 fn coupling_error(modes: &Modes, sizes: &[f64], length: f64) -> Vec<f64> {
     let growth = modes.blocks.iter().map(Block::growth_rate).fold(0.0, f64::max);
     let largest = |block: &Block, sizes: &[f64]| block.largest_discounted(length, sizes, growth);

@@ -96,12 +96,11 @@ pub(super) struct Decoupling {
 /// Sorts the eigenvalues of `schur` so that those that belong together adjoin, and decouples the
 /// clusters (after Bavely & Stewart, SIAM J. Numer. Anal. 16 (1979) 359).
 ///
-/// Eigenvalues are told apart wherever they can be. Two of them share a cluster only if the
-/// decoupling of one from the other is ill-conditioned *and* they stay alike over their lifetime
-/// within `horizon`, or lie within the blur that rounding gives a defective eigenvalue: then their
-/// modes nearly cancel, and only their common exponential is well-conditioned (rigid motion,
-/// critical damping, resonance). Also those share one that are equal but for rounding and stay alike,
-/// as their modes are anything (displacements that rest wherever they are left).
+/// Eigenvalues are told apart wherever they can be. Two of them share a cluster only if the decoupling of one from the
+/// other is ill-conditioned *and* they stay alike over their lifetime within `horizon`, or lie within the blur that
+/// rounding gives a defective eigenvalue: then their modes nearly cancel, and only their common exponential is
+/// well-conditioned (rigid motion, critical damping, resonance). Also those share one that are equal but for rounding
+/// and stay alike, as their modes are anything (displacements that rest wherever they are left).
 pub(super) fn decouple(
     schur: &mut ComplexSchur,
     clusters: &mut Clusters,

@@ -115,8 +115,7 @@ impl ModalRow {
         parts.map(missed).sum()
     }
 
-    /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are
-    /// given.
+    /// The interpolating polynomial on a panel of this width, at whose start the modal coordinates are given.
     pub(super) fn fit(&self, modes: &Modes, coordinates: &[Complex], width: f64) -> [f64; COUNT] {
         let mut values = [0.0; COUNT];
         for block in modes.blocks.iter().filter(|block| self.has_part(block)) {

@@ -9,8 +9,7 @@ use super::{
     schur::ComplexSchur,
 };
 
-/// `Ā X = X D` with block-diagonal `D`, to nearly twice the digits of a double where the size
-/// allows that.
+/// `Ā X = X D` with block-diagonal `D`, to nearly twice the digits of a double where the size allows that.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Modes {
     /// `X`, rounded.

@@ -36,7 +36,6 @@ const FAINT: f64 = 1e-4;
 pub(super) struct Piece {
     /// Where it begins.
     pub(super) start: f64,
-    /// Where it ends.
     pub(super) end: f64,
     /// Its Chebyshev coefficients.
     pub(super) coefficients: Coefficients,
@@ -78,13 +77,11 @@ pub(super) fn tolerance(local: f64, scale: f64) -> f64 {
     2.0 * f64::EPSILON * (local + FLOOR * scale)
 }
 
-/// Appends the output on `[start, start + length]`, a span whose coordinates are given, and
-/// updates the `tally`.
+/// Appends the output on `[start, start + length]`, a span whose coordinates are given, and updates the `tally`.
 ///
-/// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the
-/// derivative is bounded mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more
-/// than its own size. The widest of certain widths is taken for which that is below the rounding
-/// errors.
+/// A panel of width `h` misses the solution by at most `4 (h/4)^n/n! · |g^(n)|`, `n = 17`; the derivative is bounded
+/// mode by mode by `|r_j| |λ_j|^n |c_j|`, and no mode can contribute more than its own size. The widest of certain
+/// widths is taken for which that is below the rounding errors.
 pub(super) fn interpolate(
     row: &ModalRow,
     (modes, tables): (&Modes, &Tables),
@@ -134,7 +131,6 @@ pub(super) fn trimmed(coefficients: &[f64], negligible: f64) -> Coefficients {
     coefficients[..count].into()
 }
 
-/// The width of a panel.
 #[derive(Debug, Clone, Copy)]
 enum Width {
     /// That of a step.
@@ -157,7 +153,6 @@ struct Walk<'m> {
     lines: BTreeMap<i32, Line>,
     /// Where it is, from the start of the span.
     at: f64,
-    /// The coordinates there.
     coordinates: Vec<Complex>,
     /// Their sizes, but of those that have no part.
     sizes: Vec<f64>,

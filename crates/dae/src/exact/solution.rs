@@ -339,8 +339,7 @@ impl Dense for Solution {
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
         match uniform(times) {
-            // One state is wanted where equations change: as exactly as the signals are. That at the
-            // start is given.
+            // One state is wanted where equations change: as exactly as the signals are. That at the start is given.
             Some(grid) if (grid.count > 1 || grid.first == 0.0) && self.can_propagate() => {
                 self.by_propagator(grid)
             }

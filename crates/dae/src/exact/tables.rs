@@ -1,5 +1,4 @@
-//! What modes do on panels of certain widths, which all outputs share, and what blocks contribute there to
-//! one output.
+//! What modes do on panels of certain widths, which all outputs share, and what blocks contribute there to one output.
 
 use std::{
     cell::OnceCell,
@@ -34,7 +33,6 @@ const UNRESOLVED: f64 = 4.0;
 /// Interpolation error in parts of `(h/4)^n/n! · |g^(n)|`.
 const RESOLVED: f64 = 4.0;
 
-/// The width of a step.
 pub(super) fn width_of(step: i32) -> f64 {
     let width = (f64::from(step) / PER_OCTAVE).exp2();
     f64::from_bits(width.to_bits() >> CUT << CUT)
@@ -144,7 +142,6 @@ impl Table {
     }
 }
 
-/// Whether tables are made of a block.
 pub(super) fn is_told(block: &Block) -> bool {
     block.weight > 0.0 && block.len() <= MOST_MODES
 }

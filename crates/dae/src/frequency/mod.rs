@@ -68,8 +68,7 @@ impl<'s> FrequencyResponse<'s> {
         Ok(Self { system, waveform, unit })
     }
 
-    /// The steady oscillation with the angular frequency `omega` \[rad/s\], ≥ 0; 0 is rest under a
-    /// constant drive.
+    /// The steady oscillation with the angular frequency `omega` \[rad/s\], ≥ 0; 0 is rest under a constant drive.
     ///
     /// `None` where the equations have no finite solution: at an undamped resonance, and at rest
     /// where something drifts.
@@ -258,8 +257,7 @@ pub const MOST_UNKNOWNS: usize = 400;
 /// The poles \[rad/s\] of a linear system: it swings freely with `e^{pt}` for each of them. They are
 /// in no order, and good to about a rounding of the largest one.
 ///
-/// `None` where the system is not linear, has more than [`MOST_UNKNOWNS`] unknowns, or its poles
-/// could not be found.
+/// `None` where the system is not linear, has more than [`MOST_UNKNOWNS`] unknowns, or its poles could not be found.
 pub fn poles(system: &System) -> Option<Vec<Complex<f64>>> {
     if !system.is_linear() || system.len() > MOST_UNKNOWNS {
         return None;

@@ -6,12 +6,14 @@ use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
 /// Most unknowns of a system that is solved by an explicit method: of many it costs more to watch the stiffness
 /// than steps are saved.
 const MOST_EXPLICIT: usize = 30;
+/// Linear systems of more unknowns than this are watched by a bound, which costs next to nothing.
+const LEAST_BOUNDED: usize = 200;
 
 /// Chooses a method by structure and size, never by the clock, so that a run repeats to the bit.
 ///
 /// The rule: [`Exact`] wherever it applies, because nothing is more accurate or faster there; else
-/// [`Dop853`], with few steps, where the system is small and not stiff at the start; else [`Bdf`], which solves
-/// every system. What becomes stiff later [`Dop853`] leaves to [`Bdf`] by itself. The other one-step methods are
+/// [`Dop853`], with few steps, where the system is small or a long chain without damping, and not stiff at the start; else
+/// [`Bdf`], which solves every system. What becomes stiff later [`Dop853`] leaves to [`Bdf`] by itself. The other one-step methods are
 /// left to those who ask for them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Auto;
@@ -27,8 +29,10 @@ impl Auto {
             Err(other) => return (Box::new(Bdf), other.to_string()),
         };
         let length = run.t_end / system.time_scale;
-        let is_explicit =
-            system.len() <= MOST_EXPLICIT && !is_stiff(system, &system.initial, (0.0, length));
+        let is_few = system.len() <= MOST_EXPLICIT || system.len() > LEAST_BOUNDED;
+        let is_explicit = is_few
+            && Dop853.applies(system, run).is_ok()
+            && !is_stiff(system, &system.initial, (0.0, length));
         (if is_explicit { Box::new(Dop853) } else { Box::new(Bdf) }, declined)
     }
 }

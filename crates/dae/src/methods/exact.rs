@@ -41,18 +41,16 @@ const BEYOND: f64 = 1.25;
 
 /// The solution by the matrix exponential: no steps, and no error but rounding.
 ///
-/// `ẏ = A y + B w(t)` is solved between breakpoints of the driving functions as `z(t) = e^{Ā t} z(0)`,
-/// where `z` holds the unknowns and the generators of cubics and sines. Samples on a
-/// uniform grid come from one exponential of the step; outputs come from the modal form, as
-/// piecewise polynomials whose interpolation error is bounded mode by mode, so that no extremum and
-/// no crossing is missed for lying between samples. Nothing is computed before it is asked for.
+/// `ẏ = A y + B w(t)` is solved between breakpoints of the driving functions as `z(t) = e^{Ā t} z(0)`, where `z` holds
+/// the unknowns and the generators of cubics and sines. Samples on a uniform grid come from one exponential of the
+/// step; outputs come from the modal form, as piecewise polynomials whose interpolation error is bounded mode by mode,
+/// so that no extremum and no crossing is missed for lying between samples. Nothing is computed before it is asked for.
 ///
 /// # When exact stops being exact
 ///
-/// - The values are those of the matrices as given. Their entries are rounded, and where an entry is
-///   a difference of great numbers the slow motion of the *matrices* differs from that of the scene,
-///   whoever solves them; no bound knows of that. Beyond `‖A‖T = 1e15` scenes are declined unless no
-///   mode is changed by it.
+/// - The values are those of the matrices as given. Their entries are rounded, and where an entry is a difference of
+///   great numbers the slow motion of the *matrices* differs from that of the scene, whoever solves them; no bound
+///   knows of that. Beyond `‖A‖T = 1e15` scenes are declined unless no mode is changed by it.
 /// - The modal form is refined in twice the digits of a double, so the error of a signal is that of
 ///   its evaluation: about `16 ε` of the largest sum of its modes' sizes, which is more than that of
 ///   the signal itself where modes cancel. The stated bound says how much.
@@ -60,9 +58,8 @@ const BEYOND: f64 = 1.25;
 ///   their error is about `ε ‖A‖ T`. All other samples come from the modal form.
 /// - Rates that are equal, or so nearly equal that rounding decides, share one block of the modal
 ///   form. Chains of many such rates cost digits; the bound says how many.
-/// - A bound of a signal covers the largest error over its spans, the rounding of times included.
-///   Where no modal form is found that a bound can be given for, the values are those of the matrix
-///   exponential, and no bound is stated.
+/// - A bound of a signal covers the largest error over its spans, the rounding of times included. Where no modal form
+///   is found that a bound can be given for, the values are those of the matrix exponential, and no bound is stated.
 /// - A driving function whose frequency changes (a chirp) has no finite set of generators, so scenes
 ///   that are driven by one are declined.
 /// - The work of a signal grows with the number of oscillations; beyond six million radians of all

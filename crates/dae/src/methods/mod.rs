@@ -26,8 +26,7 @@ pub trait Method: Debug + Send + Sync {
     /// What it is good for, in one line.
     fn summary(&self) -> &'static str;
 
-    /// Whether it can solve `system` over `run`, and if so why it is a fit (one clause, shown in
-    /// the report).
+    /// Whether it can solve `system` over `run`, and if so why it is a fit (one clause, shown in the report).
     ///
     /// # Errors
     ///
@@ -104,10 +103,7 @@ pub fn by_name(name: &str) -> Option<Box<dyn Method>> {
 }
 
 /// Checks what every method asks of a run.
-///
-/// # Errors
-///
-/// [`SolveError::InvalidSetting`] for an end that is negative or not finite.
+/// Errors: [`SolveError::InvalidSetting`] for an end that is negative or not finite.
 fn check(system: &System, run: &Run) -> Result<(), SolveError> {
     let setting = |setting, range, value| SolveError::InvalidSetting { setting, range, value };
     if !(run.t_end >= 0.0 && run.t_end.is_finite()) {

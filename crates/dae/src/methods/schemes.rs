@@ -2,7 +2,7 @@
 
 use diffsol::Tableau;
 
-use super::stepping::{Integrator, MOST_EXPLICIT, Scheme};
+use super::stepping::{Integrator, MOST_EXPLICIT, MOST_LINEAR, Scheme};
 use crate::System;
 
 /// Backward differentiation of order 1 to 5 with variable steps, on the system as it stands:
@@ -48,9 +48,8 @@ impl Scheme for TrBdf2 {
     const ORDER: usize = 2;
 }
 
-/// ESDIRK34, a one-step method of order 3 with four stages: it restarts without loss and damps stiff
-/// parts at once, but light oscillations as well: at ζ = 10⁻⁴ a tolerance of 10⁻⁴ loses all of their
-/// energy within 1000 periods.
+/// ESDIRK34, a one-step method of order 3 with four stages: it restarts without loss and damps stiff parts at once, but
+/// light oscillations as well: at ζ = 10⁻⁴ a tolerance of 10⁻⁴ loses all of their energy within 1000 periods.
 ///
 /// Its dense output in a step is the cubic through the values and slopes at both ends. That of an
 /// algebraic unknown needs the unknown's slope at the start of a span, which the adapter provides.
@@ -68,9 +67,8 @@ impl Scheme for Esdirk34 {
     const ORDER: usize = 3;
 }
 
-/// Tsitouras' explicit method of order 5 with an embedded one of order 4. Stiffness forces it to
-/// small steps, and it cannot solve algebraic unknowns; it is a check on the implicit methods that
-/// shares nothing with them.
+/// Tsitouras' explicit method of order 5 with an embedded one of order 4. Stiffness forces it to small steps, and it
+/// cannot solve algebraic unknowns; it is a check on the implicit methods that shares nothing with them.
 ///
 /// Its dense output in a step is a polynomial of degree 4.
 ///
@@ -104,8 +102,7 @@ impl Scheme for Tsit45 {
 ///
 /// Its dense output in a step is a polynomial of degree 7, so that few steps tell all of an impact.
 ///
-/// Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, II.5 and
-/// II.10.
+/// Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, II.5 and II.10.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Dop853;
 
@@ -119,11 +116,14 @@ impl Scheme for Dop853 {
     const FALL: f64 = 0.9;
 
     fn suits(system: &System) -> Result<&'static str, String> {
+        let is_plain = system.terms.is_empty() && system.algebraic() == 0;
         match system.len() {
             0..=MOST_EXPLICIT => Ok("the system is small"),
-            more => {
-                Err(format!("it is for at most {MOST_EXPLICIT} unknowns, and there are {more}"))
-            }
+            ..=MOST_LINEAR if is_plain => Ok("the system is linear and has no balances"),
+            more => Err(format!(
+                "it is for at most {MOST_EXPLICIT} unknowns, or {MOST_LINEAR} of linear systems without balances, and \
+                 there are {more}"
+            )),
         }
     }
 }

@@ -75,8 +75,7 @@ pub(super) fn panels(system: &System, step: &Step) -> usize {
     parts(step, (0..system.inputs.len()).map(omega)).1
 }
 
-/// Half of what the phase of the fastest sine turns by on one of the equal parts of a step, and how many
-/// there are.
+/// Half of what the phase of the fastest sine turns by on one of the equal parts of a step, and how many there are.
 fn parts(step: &Step, omegas: impl Iterator<Item = f64>) -> (f64, usize) {
     let half = 0.5 * omegas.fold(0.0, f64::max) * (step.end - step.start);
     let parts = count((half / LONGEST).ceil()).max(1);

@@ -56,8 +56,7 @@ fn unit(nodes: &[f64]) -> f64 {
     if below > 0.0 && below.is_finite() { below.recip() } else { 1.0 }
 }
 
-/// Writes to each row of `out` the polynomial through `rows` at one of the times; `rows` holds one
-/// row for each node.
+/// Writes to each row of `out` the polynomial through `rows` at one of the times; `rows` holds one row for each node.
 ///
 /// The same as [`Lagrange`] for a number of nodes that the compiler knows, as sampling is most of
 /// what many outputs cost.

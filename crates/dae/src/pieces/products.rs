@@ -43,7 +43,6 @@ pub(super) struct Row {
 /// One integral.
 #[derive(Debug, Clone, Copy)]
 struct Sum {
-    /// Index of the product.
     index: usize,
     factor: f64,
     total: f64,
@@ -187,15 +186,13 @@ fn ratio(a: FormRef<'_>, b: FormRef<'_>) -> Option<f64> {
     (a.len() == b.len() && a.zip(b).all(is_same)).then_some(ratio)
 }
 
-/// A place in a step: what it weighs in an integral, and the shares of the step's rows in the values
-/// there.
+/// A place in a step: what it weighs in an integral, and the shares of the step's rows in the values there.
 struct Point {
     weight: f64,
     shares: [f64; HIGHEST + 1],
 }
 
-/// The sums of the rows' factors from number `first` on, `count` of them, with these shares; the rest
-/// is zero.
+/// The sums of the rows' factors from number `first` on, `count` of them, with these shares; the rest is zero.
 fn values(shares: &[f64], rows: &[&Row], first: usize, count: usize) -> [f64; BLOCK] {
     let mut values = [0.0; BLOCK];
     for (share, row) in shares.iter().zip(rows) {

@@ -21,8 +21,7 @@ impl Signal {
     /// stand out among the slopes that are known, and accounts for what lies between the slope and a line from
     /// the panel before to the one behind, it is that line.
     ///
-    /// Its `noise` is an estimate, in proportion to the size of the values; an error bound it has
-    /// none.
+    /// Its `noise` is an estimate, in proportion to the size of the values; an error bound it has none.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let mut panels: Vec<Panel> = self.panels.iter().map(Panel::derivative).collect();

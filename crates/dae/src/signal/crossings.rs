@@ -7,17 +7,13 @@ use dashpot_numerics::chebyshev::{self, bracketed_root, evaluate, sign_changes};
 use super::{Crossing, Panel, Signal};
 
 impl Signal {
-    /// All places in the window at which the signal passes or touches the `level`, in order of
-    /// time.
+    /// All places in the window at which the signal passes or touches the `level`, in order of time.
     ///
-    /// A value within [`noise`](Self#structfield.noise), or a few roundings, of the level is *on*
-    /// it. The signal passes the level where it comes from one side of it to the other, in one jump
-    /// or through places on it; it touches the level where it comes from one side, to the level
-    /// itself, and back to the same side. So
-    /// - it does not pass the level where it begins or ends on it
-    ///   (see [`departure`](Self::departure));
-    /// - two passages between which it strays from the level by no more than the noise are one
-    ///   touch;
+    /// A value within [`noise`](Self#structfield.noise), or a few roundings, of the level is *on* it. The signal passes
+    /// the level where it comes from one side of it to the other, in one jump or through places on it; it touches the
+    /// level where it comes from one side, to the level itself, and back to the same side. So
+    /// - it does not pass the level where it begins or ends on it (see [`departure`](Self::departure));
+    /// - two passages between which it strays from the level by no more than the noise are one touch;
     /// - a signal that rests on the level, that is for at least one panel, neither passes nor
     ///   touches it there; if it leaves to the other side, the passage is where it does so.
     pub fn crossings(&self, level: f64, window: (f64, f64)) -> Vec<Crossing> {
@@ -48,10 +44,9 @@ impl Signal {
         first
     }
 
-    /// The side of the `level` on which the signal is at and after `t`, `Some(true)` above: that of
-    /// its value, or if this is on the level, of its first derivative that is not zero beyond its
-    /// noise. `None` if it stays on the level to its end. At the end of the signal the last panel
-    /// is thought to go on.
+    /// The side of the `level` on which the signal is at and after `t`, `Some(true)` above: that of its value, or if
+    /// this is on the level, of its first derivative that is not zero beyond its noise. `None` if it stays on the level
+    /// to its end. At the end of the signal the last panel is thought to go on.
     pub fn departure(&self, level: f64, t: f64) -> Option<bool> {
         for panel in self.panels.get(self.panel_at(t)..)? {
             let mut gap = panel.coefficients.clone();

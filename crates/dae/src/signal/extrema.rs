@@ -4,6 +4,9 @@ use dashpot_numerics::chebyshev::{self, evaluate, sign_changes};
 
 use super::{Extremum, Signal};
 
+/// Values that differ by so many roundings are equal.
+const ROUNDINGS: f64 = 64.0;
+
 /// What is to be as large as possible.
 #[derive(Debug, Clone, Copy)]
 enum Goal {
@@ -89,8 +92,8 @@ impl Signal {
         found
     }
 
-    /// Branch and bound: the values at the borders first, then the inside of those panels alone
-    /// that may hold more.
+    /// Branch and bound: the values at the borders first, then the inside of those panels alone that may hold more. Of
+    /// what is equal but for rounding the first counts.
     fn best(&self, window: (f64, f64), goal: Goal) -> Extremum {
         let panels = self.panels_in(window);
         let mut best: Option<Extremum> = None;
@@ -120,9 +123,19 @@ impl Signal {
                 most = consider(panel.time(x), evaluate(coefficients, x));
             }
         }
-        best.unwrap_or_else(|| {
+        let Some(best) = best else {
             let time = if window.0 > self.end() { self.end() } else { self.start() };
-            Extremum { time, value: self.value(time) }
-        })
+            return Extremum { time, value: self.value(time) };
+        };
+        let equal = most - ROUNDINGS * f64::EPSILON * most.abs();
+        let before = self.panels_in(window).take_while(|panel| panel.start < best.time);
+        let first =
+            before.filter(|panel| goal.bound(&panel.coefficients) >= equal).find_map(|panel| {
+                let turns = sign_changes(&chebyshev::derivative(&panel.coefficients));
+                let mut places = [-1.0].into_iter().chain(turns).chain([1.0]);
+                let is_equal = |x: &f64| goal.merit(evaluate(&panel.coefficients, *x)) >= equal;
+                places.find(is_equal).map(|x| panel.time(x))
+            });
+        Extremum { time: first.map_or(best.time, |first| first.min(best.time)), ..best }
     }
 }

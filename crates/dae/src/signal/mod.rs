@@ -10,9 +10,8 @@ pub use panel::Panel;
 
 /// A scalar function of time as a sequence of adjoining polynomials, in SI units.
 ///
-/// At a border of two panels the later one counts (value from the right), except at the end.
-/// All times are in s. A window is a pair `(from, to)` of times, both included; what lies outside
-/// the signal is cut off.
+/// At a border of two panels the later one counts (value from the right), except at the end. All times are in s. A
+/// window is a pair `(from, to)` of times, both included; what lies outside the signal is cut off.
 ///
 /// # Examples
 ///

@@ -60,8 +60,7 @@ impl Panel {
         chebyshev::evaluate(&self.derivative().coefficients, self.place(t))
     }
 
-    /// Its derivative with respect to time. It is zero where the panel is so short that the slope
-    /// is no finite number.
+    /// Its derivative with respect to time. It is zero where the panel is so short that the slope is no finite number.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let mut coefficients = chebyshev::derivative(&self.coefficients);
@@ -143,8 +142,7 @@ impl Signal {
         whole.map(move |panel| panel.cut(from, to)).chain(last.map(Cow::Owned))
     }
 
-    /// What cannot be told from a level in a panel: the noise, some roundings of the value, or a
-    /// rounding of the time.
+    /// What cannot be told from a level in a panel: the noise, some roundings of the value, or a rounding of the time.
     pub(super) fn floor(&self, panel: &Panel, level: f64) -> f64 {
         let (mut size, mut variation, mut steepest) = (0.0, 0.0, 0.0);
         let mut k = 0.0;

@@ -235,6 +235,21 @@ fn the_global_maximum_jumps_between_nearly_equal_peaks() {
 }
 
 #[test]
+fn of_maxima_that_are_equal_but_for_rounding_the_first_counts() {
+    let above = 1.0 + 4.0 * f64::EPSILON;
+    let plateau = |t: f64| if t < 2.0 { 1.0 } else { above };
+    let held = Signal::new(
+        vec![panel(0.0, 1.0, 1, |t| t), panel(1.0, 2.0, 1, plateau), panel(2.0, 3.0, 0, |_| above)],
+        None,
+        0.0,
+    );
+    assert_eq!(held.maximum(EVERYWHERE), Extremum { time: 1.0, value: above });
+    let wave = signal(&uneven(40.0, 0.7), 16, f64::sin);
+    assert!((wave.maximum(EVERYWHERE).time - 0.5 * PI).abs() < 1e-6);
+    assert!((wave.minimum(EVERYWHERE).time - 1.5 * PI).abs() < 1e-6);
+}
+
+#[test]
 fn extrema_at_jumps_ends_and_ties_count() {
     let saw = signal(&[0.0, 1.0, 2.0, 3.0], 1, |t| t);
     let mut saw = saw;

@@ -75,10 +75,9 @@ fn steepest(signal: &Signal) -> f64 {
 impl Chain {
     /// The signals of the intervals, one behind the other.
     ///
-    /// Each interval bounds its own error, to which comes what the rounding of times does to a
-    /// value. What the errors before it do to it is estimated from a second solution whose states
-    /// were perturbed: eight times the largest difference of both, interval by interval, is added.
-    /// Where the second one has no value, no error is stated.
+    /// Each interval bounds its own error, to which comes what the rounding of times does to a value. What the errors
+    /// before it do to it is estimated from a second solution whose states were perturbed: eight times the largest
+    /// difference of both, interval by interval, is added. Where the second one has no value, no error is stated.
     fn joined(&self, signal: impl Fn(&Solved) -> Signal) -> Signal {
         let mut panels: Vec<Panel> = Vec::new();
         let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
@@ -116,7 +115,6 @@ impl Chain {
         Signal::new(panels, error, noise)
     }
 
-    /// What is told of one interval.
     fn told(&self, interval: &Solved, signal: impl Fn(&Solved) -> Signal) -> Signal {
         let is_kept = self.intervals.len() <= MANY;
         if is_kept {

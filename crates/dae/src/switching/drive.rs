@@ -31,9 +31,8 @@ const ROUNDINGS: f64 = 1e3;
 
 /// Solves a run interval by interval with one method.
 ///
-/// A method without an error of its own solves a run of several intervals twice, the second time
-/// with the state at the end of each interval perturbed in its last digits: by what comes of that the
-/// errors of its signals are estimated.
+/// A method without an error of its own solves a run of several intervals twice, the second time with the state at the
+/// end of each interval perturbed in its last digits: by what comes of that the errors of its signals are estimated.
 ///
 /// # Errors
 ///

@@ -47,8 +47,7 @@ pub struct IntervalEnd<'a> {
     pub state: &'a [f64],
     /// The guards at whose levels it ended.
     pub fired: &'a [usize],
-    /// Size of the error of a quantity in parts of its terms: what is smaller cannot be told from
-    /// zero.
+    /// Size of the error of a quantity in parts of its terms: what is smaller cannot be told from zero.
     pub threshold: f64,
 }
 

@@ -1,10 +1,9 @@
 //! How well an interval is known where its guards look: what may have switched before a run ends,
 //! and sizes of unknowns in intervals that see little of them.
 //!
-//! Scales are made for a whole run: what a weight could do in all of it may be 10⁹ times what a gap leaves
-//! it. A method that follows places to its tolerance of such a scale knows nothing of when the gap closes.
-//! An interval in which a guard's output stays that small is solved once more, with sizes of its
-//! own.
+//! Scales are made for a whole run: what a weight could do in all of it may be 10⁹ times what a gap leaves it. A method
+//! that follows places to its tolerance of such a scale knows nothing of when the gap closes. An interval in which a
+//! guard's output stays that small is solved once more, with sizes of its own.
 
 use std::ops::ControlFlow;
 
@@ -56,8 +55,7 @@ pub(super) fn end_margin(
     interval.guards.iter().filter_map(of_guard).reduce(f64::max)
 }
 
-/// The sizes with which an interval is to be solved again; `None` where those of the `run` have
-/// done.
+/// The sizes with which an interval is to be solved again; `None` where those of the `run` have done.
 pub(super) fn smaller_sizes(
     interval: &ModeInterval,
     run: &Run,
@@ -104,8 +102,7 @@ const SHAKES: f64 = 64.0;
 /// less is perturbed by less in proportion. What is thrown back from so near that its way out and back
 /// is less than a rounding would else never come to rest.
 const CHANGE: f64 = 1e-4;
-/// Most intervals that a perturbed run may have for each interval of the run, and beyond: with more it
-/// is another run.
+/// Most intervals that a perturbed run may have for each interval of the run, and beyond: with more it is another run.
 const INTERVALS: usize = 2;
 const MORE_INTERVALS: usize = 64;
 

@@ -36,10 +36,9 @@ const ERROR: f64 = 8.0;
 const IMPROVEMENTS: usize = 30;
 
 impl PredictedEvent {
-    /// How an interval of `system` ends at the guard number `guard`, if that is reached soon by
-    /// what begins on its inner side, and how far it strays from its level before, in the output's
-    /// unit. `None` where the `motion`, which is the derivatives up to order 7, does not tell all
-    /// about so long a time; `threshold` is as in
+    /// How an interval of `system` ends at the guard number `guard`, if that is reached soon by what begins on its
+    /// inner side, and how far it strays from its level before, in the output's unit. `None` where the `motion`, which
+    /// is the derivatives up to order 7, does not tell all about so long a time; `threshold` is as in
     /// [`IntervalEnd::threshold`](crate::IntervalEnd::threshold).
     pub fn of(
         system: &System,
@@ -79,8 +78,7 @@ fn series(derivative: impl Fn(usize) -> f64) -> [f64; ORDERS + 1] {
     })
 }
 
-/// When a quantity of this series that begins at zero or above falls through zero, and how high it
-/// rises before.
+/// When a quantity of this series that begins at zero or above falls through zero, and how high it rises before.
 fn back(gap: &[f64; ORDERS + 1], threshold: f64) -> Option<(f64, f64)> {
     let [start, rate, bend, ..] = *gap;
     let root = (rate * rate - 4.0 * bend * start).sqrt();
@@ -122,10 +120,7 @@ fn is_settled(sizes: &[f64; ORDERS + 1], time: f64, threshold: f64) -> bool {
 }
 
 /// Solves an interval whose end is known by its series; `None` where the series cannot be had.
-///
-/// # Errors
-///
-/// [`SolveError::Cancelled`] where the observer ends the run.
+/// Errors: [`SolveError::Cancelled`] where the observer ends the run.
 pub(super) fn follow(
     interval: &ModeInterval,
     predicted: PredictedEvent,

@@ -88,8 +88,7 @@ impl Waveform {
         if jump.abs() <= before.noise(t) + after.noise(t) { 0.0 } else { jump }
     }
 
-    /// The same function with time and value measured in other units:
-    /// `û(t̂) = u(t̂ · time) / value`.
+    /// The same function with time and value measured in other units: `û(t̂) = u(t̂ · time) / value`.
     #[must_use]
     pub fn in_units(&self, time: f64, value: f64) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.in_units(time, value)).collect();

@@ -99,7 +99,6 @@ impl Piece {
         now[0]
     }
 
-    /// All numbers that it is made of.
     pub(super) fn numbers(&self) -> [f64; 9] {
         let Self { start, value, slope, curvature, jerk, sine, cosine, omega, sweep } = *self;
         [start, value, slope, curvature, jerk, sine, cosine, omega, sweep]

@@ -332,7 +332,7 @@ impl<'t> Tests<'t> {
 fn value(run: &RunReport, key: &str) -> Result<(f64, f64), Cause> {
     let own = run.measure(key);
     let known = own.and_then(|own| Some((own.value?, own.error.unwrap_or(f64::NAN))));
-    known.ok_or_else(|| Cause::no_value(key, own))
+    known.ok_or_else(|| Cause::no_value(key, Some(run)))
 }
 
 /// Whether something is pressed further than is known of it at a point.

@@ -7,8 +7,14 @@ use dashpot_analysis::{
 
 use super::{Aim, DesignError};
 
-/// Tolerance of stepping methods, whose results are differenced.
-const RTOL: f64 = 1e-9;
+/// Tolerances of stepping methods, whose results are differenced: the first at which a design takes no more work than
+/// [`MOST_WORK`] …
+const FINE: [f64; 2] = [1e-9, 1e-8];
+/// … else this one, where a law makes finer ones follow roundings.
+const COARSE: f64 = 1e-7;
+/// Work of a design in parts of that of the first one at the coarse tolerance, and what is always granted.
+const MOST_WORK: u64 = 4;
+const LEAST_WORK: u64 = 200_000;
 
 /// What has to be kept by a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +54,8 @@ pub(super) struct Evaluator<'p> {
     /// Another aim, which may have a ceiling.
     other: Option<&'p Aim>,
     pub(super) required: Vec<Required>,
+    /// Work of a solution at a fine tolerance.
+    budget: u64,
 }
 
 /// What one design comes to.
@@ -102,11 +110,12 @@ impl<'p> Evaluator<'p> {
         other: Option<&'p Aim>,
         at: &[f64],
     ) -> Result<Self, DesignError> {
-        let mut own = Self { tests, aim, other, required: Vec::new() };
+        let mut own = Self { tests, aim, other, required: Vec::new(), budget: LEAST_WORK };
         for test in 0..tests.len() {
-            let point = own.point(test, at)?;
+            let point = own.asked(test, at)?;
             let limits = point.settings.limits.clone();
-            let run = point.network.solve_with(&point.settings)?;
+            let run = point.network.solve_with(&differenced(&point.settings, COARSE))?;
+            own.budget = own.budget.max(MOST_WORK.saturating_mul(run.solver.work));
             let of_limits = limits.into_iter().map(Requirement::Limit);
             let depths = reaches(&run).into_iter().map(|own| Requirement::Depth(own.0, own.1));
             let ceiling = other.filter(|other| test == 0 || matches!(other, Aim::Measure(_)));
@@ -126,7 +135,6 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// The scene of a test with what is asked of it.
     fn asked(&self, test: usize, values: &[f64]) -> Result<ScenePoint, DesignError> {
         let mut point = (self.tests[test])(values).map_err(DesignError::NotPosed)?;
         let keys: Vec<String> = [Some(self.aim), self.other]
@@ -140,9 +148,18 @@ impl<'p> Evaluator<'p> {
         Ok(point)
     }
 
-    /// The same as it is differenced: without estimates of errors.
-    fn point(&self, test: usize, values: &[f64]) -> Result<ScenePoint, DesignError> {
-        Ok(differenced(self.asked(test, values)?))
+    /// The run of a design as it is differenced.
+    fn solved(&self, point: &ScenePoint) -> Result<RunReport, Cause> {
+        let ScenePoint { network, settings } = point;
+        let fine = if settings.rtol.is_some() { &[][..] } else { &FINE };
+        let limited = |rtol: &f64| {
+            let own = differenced(settings, *rtol);
+            network.solve_with(&SolveSettings { budget: self.budget.min(own.budget), ..own }).ok()
+        };
+        if let Some(run) = fine.iter().find_map(limited) {
+            return Ok(run);
+        }
+        Ok(network.solve_with(&differenced(settings, COARSE))?)
     }
 
     /// The run of a test with the errors that are asked for.
@@ -156,7 +173,7 @@ impl<'p> Evaluator<'p> {
     pub(super) fn at(&self, values: &[f64]) -> Result<Evaluated, Cause> {
         let mut own = Evaluated { aims: Vec::new(), values: Vec::new() };
         for test in 0..self.tests.len() {
-            let run = solved(&self.point(test, values).map_err(cause)?)?;
+            let run = self.solved(&self.asked(test, values).map_err(cause)?)?;
             own.values.extend(self.required_of(test, &run, values)?);
             if let Aim::Measure(key) = self.aim {
                 own.aims.push(whole(&run, key)?);
@@ -174,10 +191,10 @@ impl<'p> Evaluator<'p> {
     pub(super) fn of_scattered(
         &self,
         test: usize,
-        point: ScenePoint,
+        point: &ScenePoint,
         values: &[f64],
     ) -> Result<Vec<f64>, Cause> {
-        self.required_of(test, &solved(&differenced(point))?, values)
+        self.required_of(test, &self.solved(point)?, values)
     }
 
     /// What each requirement of a test comes to in its run.
@@ -222,16 +239,13 @@ impl<'p> Evaluator<'p> {
     }
 }
 
-fn differenced(mut point: ScenePoint) -> ScenePoint {
-    let settings = &mut point.settings;
-    settings.estimate = false;
-    settings.accuracy.neglect_below = None;
-    settings.rtol = settings.rtol.or(Some(RTOL));
-    point
-}
-
-fn solved(point: &ScenePoint) -> Result<RunReport, Cause> {
-    Ok(point.network.solve_with(&point.settings)?)
+/// Without estimates of errors; at this tolerance where none is given.
+fn differenced(settings: &SolveSettings, rtol: f64) -> SolveSettings {
+    let mut own = settings.clone();
+    own.estimate = false;
+    own.accuracy.neglect_below = None;
+    own.rtol = own.rtol.or(Some(rtol));
+    own
 }
 
 /// Why there is no scene.
@@ -247,7 +261,7 @@ fn value(run: &RunReport, key: &str) -> Result<f64, Cause> {
     let measure = run.measure(key);
     let infinite = measure.is_some_and(MeasureReport::is_infinite).then_some(f64::INFINITY);
     let found = measure.and_then(|own| own.value).or(infinite);
-    found.ok_or_else(|| Cause::no_value(key, measure))
+    found.ok_or_else(|| Cause::no_value(key, Some(run)))
 }
 
 /// The same where it does not grow any more.

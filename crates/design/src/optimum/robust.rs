@@ -179,7 +179,7 @@ impl Search<'_> {
             let posed = (scattered.pose)(test, &design.values).map_err(DesignError::NotPosed)?;
             let count = required.iter().filter(|own| own.test == test).count();
             let of_test = self.shared(&posed, &|point: &ScenePoint| {
-                self.evaluator.of_scattered(test, point.clone(), &design.values)
+                self.evaluator.of_scattered(test, point, &design.values)
             });
             if values.is_empty() {
                 values = vec![Vec::new(); of_test.len()];

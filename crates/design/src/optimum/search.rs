@@ -23,7 +23,6 @@ pub(super) const SAME: f64 = 1e-5;
 /// Designs that one search may look at, for each of its unknowns and one more.
 const MOST_LOOKED: usize = 200;
 
-/// A search.
 pub(super) struct Search<'p> {
     pub(super) evaluator: Evaluator<'p>,
     pub(super) space: Space,

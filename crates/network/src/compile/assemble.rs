@@ -173,10 +173,7 @@ impl Graph<'_> {
     }
 
     /// Sets the initial positions where masses begin displaced. What dashpots hold to one of them begins beside it.
-    ///
-    /// # Errors
-    ///
-    /// [`NetworkError::StartPosition`] where dashpots in a row lead from one place to another: which of them
+    /// Errors: [`NetworkError::StartPosition`] where dashpots in a row lead from one place to another: which of them
     /// has given way does not follow from the places of the masses.
     fn displace(&self, places: &mut Places) -> Result<(), NetworkErrors> {
         let Self { network, bodies, structure, .. } = self;

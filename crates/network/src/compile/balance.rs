@@ -14,8 +14,7 @@ use crate::{Network, NetworkError};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub(super) ends: [usize; 2],
-    /// Distance of the places of the bodies \[m\], first less second, at the start: what it was
-    /// unloaded.
+    /// Distance of the places of the bodies \[m\], first less second, at the start: what it was unloaded.
     pub(super) distance: f64,
 }
 
@@ -34,10 +33,7 @@ pub(super) struct Surroundings<'a> {
 ///
 /// Springs carry `weights` \[N\] (one for each body), linear or not; dashpots carry nothing, and keep
 /// the place of what only they hold. What nothing holds goes with what it can touch.
-///
-/// # Errors
-///
-/// [`NetworkError::NoBalance`] for each part that would sink.
+/// Errors: [`NetworkError::NoBalance`] for each part that would sink.
 pub(super) fn positions(
     network: &Network,
     expansion: &Expansion,
@@ -110,17 +106,14 @@ const HALVINGS: usize = 200;
 /// Slopes are taken to be no smaller than this part of a law's typical slope; a law that begins
 /// without a slope would send the first step to infinity.
 const FLATTEST: f64 = 1e-9;
-/// What the forces on a body may sum up to, in parts of their magnitudes, where rounding ends the
-/// iteration.
+/// What the forces on a body may sum up to, in parts of their magnitudes, where rounding ends the iteration.
 pub(super) const UNBALANCED: f64 = 1e-9;
 
 impl Load<'_> {
-    /// The places of all bodies in balance, from those of the bodies that are given; else the bodies
-    /// that would sink.
+    /// The places of all bodies in balance, from those of the bodies that are given; else the bodies that would sink.
     ///
-    /// Linear springs need one elimination. Others need Newton's iteration from the unloaded
-    /// network: each step solves the mesh of tangents, and is halved as long as it goes beyond the
-    /// lowest point along its way.
+    /// Linear springs need one elimination. Others need Newton's iteration from the unloaded network: each step solves
+    /// the mesh of tangents, and is halved as long as it goes beyond the lowest point along its way.
     fn carried(&self, given: Vec<f64>) -> Result<Vec<f64>, Vec<usize>> {
         let springs = &self.structure.springs;
         let as_it_is = |spring: &Edge| (spring.constant, spring.offset);
@@ -151,8 +144,7 @@ impl Load<'_> {
         if sinking.is_empty() { Ok(places) } else { Err(sinking) }
     }
 
-    /// The places where springs of the slopes and offsets that `line` gives carry `part` of the
-    /// weights.
+    /// The places where springs of the slopes and offsets that `line` gives carry `part` of the weights.
     fn solved(&self, values: Vec<f64>, part: f64, line: impl Fn(&Edge) -> (f64, f64)) -> Vec<f64> {
         let mut mesh = Mesh::<f64>::new(values.len());
         for spring in &self.structure.springs {

@@ -92,10 +92,7 @@ impl HeldTable {
 }
 
 /// The tables that hold a value in a run of `duration` \[s\] although nobody says so.
-///
-/// # Errors
-///
-/// Tables that must not be used beyond their points, in a run that is longer.
+/// Errors: tables that must not be used beyond their points, in a run that is longer.
 pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, NetworkErrors> {
     let loads = network.loads.iter().map(|load| (&load.name, Dimension::FORCE, &load.force));
     let motions = network.nodes.iter().filter_map(|node| match &node.support {
@@ -126,19 +123,13 @@ pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, N
             let value = piece.derivative(order, time);
             (value.abs() > COUNTS * largest(pieces, order)).then_some(value)
         };
-        let (order, name) = (given.integrals, || name.clone());
-        let is_formula = given.is_formula;
+        let order = given.integrals;
+        let told = |what, time, value| {
+            let is_formula = given.is_formula;
+            HeldTable { name: name.clone(), is_formula, dimension, what, time, value, duration }
+        };
         if let Some(value) = counts(&pieces[0], order, given.from).filter(|_| is_late) {
-            let (what, time) = (Unsaid::First, given.from);
-            held.push(HeldTable {
-                name: name(),
-                is_formula,
-                dimension,
-                what,
-                time,
-                value,
-                duration,
-            });
+            held.push(told(Unsaid::First, given.from, value));
         }
         if !is_short {
             continue;
@@ -149,15 +140,7 @@ pub(super) fn held(network: &Network, duration: f64) -> Result<Vec<HeldTable>, N
         } else {
             counts(last, order, time).map(|_| Unsaid::Last)
         };
-        held.extend(what.map(|what| HeldTable {
-            name: name(),
-            is_formula,
-            dimension,
-            what,
-            time,
-            value,
-            duration,
-        }));
+        held.extend(what.map(|what| told(what, time, value)));
     }
     if errors.is_empty() { Ok(held) } else { Err(NetworkErrors(errors)) }
 }

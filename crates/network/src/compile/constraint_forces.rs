@@ -67,8 +67,7 @@ fn share(network: &Network, parts: &Parts<'_>, joint: usize) -> Share {
     }
 }
 
-/// `sign` times the force that the rest must take from a share of a body: what acts on it less what
-/// accelerates it.
+/// `sign` times the force that the rest must take from a share of a body: what acts on it less what accelerates it.
 fn balance(parts: &Parts<'_>, body: usize, share: &Share, sign: f64) -> Row {
     let mut sum = RowSum::default();
     sum.add(sign, &share.force);

@@ -50,8 +50,7 @@ impl Primitive {
         self.origin.phases().is_some()
     }
 
-    /// Whether its rate is of interest in a network that switches: something is dissipated by it, or
-    /// watches it.
+    /// Whether its rate is of interest in a network that switches: something is dissipated by it, or watches it.
     pub(crate) fn needs_rate(&self) -> bool {
         match self.origin.law() {
             Law::Dashpot(_) => true,

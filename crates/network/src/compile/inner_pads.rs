@@ -5,7 +5,6 @@ use crate::{Connection, InnerPad, Model};
 
 /// A branch of the model of a connection.
 pub(super) struct Located {
-    /// Its shape.
     pub(super) shape: usize,
     /// Its path, which begins with the name of the connection.
     pub(super) path: String,

@@ -6,8 +6,7 @@
 //! * A massless node has no rate where all laws at it are flat over the rate. What may be flat and is needed to
 //!   tell a rate gets a dashpot beside it, of [`LEAST`] of the slope that it has in the motion at hand. A law of
 //!   the rate alone has that slope only where its own is smaller, and is untouched beyond.
-//! * A law that is steep at rest, such as √ẏ, is a straight line up to [`LEAST`] of the rate of the motion at
-//!   hand.
+//! * A law that is steep at rest, such as √ẏ, is a straight line up to [`LEAST`] of the rate of the motion at hand.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -82,8 +81,7 @@ impl Characteristic for OfElement {
     }
 }
 
-/// What is left of the force of an element, over the sum of the force and that of the dashpot that
-/// stands for it.
+/// What is left of the force of an element, over the sum of the force and that of the dashpot that stands for it.
 #[derive(Debug)]
 struct Reflected {
     element: Arc<dyn Element>,

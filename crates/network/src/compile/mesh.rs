@@ -1,9 +1,8 @@
 //! Star–mesh elimination: the balance of massless places, solved without subtraction.
 //!
-//! Each link carries `conductance · (X_p − X_q + offset)` from `p` to `q`; at an eliminated place
-//! the links balance a load. Replacing a star by the mesh of its neighbours multiplies, divides and
-//! adds positive numbers only, so stiffnesses any number of decades apart keep all their digits
-//! (1 and 10¹² N/m in series make 0.999999999999 N/m).
+//! Each link carries `conductance · (X_p − X_q + offset)` from `p` to `q`; at an eliminated place the links balance a
+//! load. Replacing a star by the mesh of its neighbours multiplies, divides and adds positive numbers only, so
+//! stiffnesses any number of decades apart keep all their digits (1 and 10¹² N/m in series make 0.999999999999 N/m).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

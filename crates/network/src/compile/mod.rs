@@ -1,11 +1,10 @@
 //! From network to system.
 //!
-//! Models are expanded into primitives between joints ([`expand`]), rigid links merge joints into
-//! bodies ([`bodies`]), and the graph says which bodies have rates of their own and which follow
-//! from balances ([`structure`]). Bodies are counted from each other along springs and dashpots
-//! ([`tree`]). Balances are solved by star–mesh elimination ([`mesh`]), never by subtracting from a
-//! diagonal, and rows have twice the digits of a double ([`row`]) until they are complete. They are
-//! in SI; `system` rounds them and makes them dimensionless.
+//! Models are expanded into primitives between joints ([`expand`]), rigid links merge joints into bodies ([`bodies`]),
+//! and the graph says which bodies have rates of their own and which follow from balances ([`structure`]). Bodies are
+//! counted from each other along springs and dashpots ([`tree`]). Balances are solved by star–mesh elimination
+//! ([`mesh`]), never by subtracting from a diagonal, and rows have twice the digits of a double ([`row`]) until they
+//! are complete. They are in SI; `system` rounds them and makes them dimensionless.
 
 mod accelerometers;
 mod assemble;

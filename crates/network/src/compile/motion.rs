@@ -38,8 +38,7 @@ const MOST_LINKS: usize = 16;
 /// What the rows are built from.
 pub(super) struct Given<'a> {
     pub(super) primitives: &'a [Primitive],
-    /// The nonlinear force of each primitive, besides a linear spring's and dashpot's \[N\]; it is
-    /// among the loads.
+    /// The nonlinear force of each primitive, besides a linear spring's and dashpot's \[N\]; it is among the loads.
     pub(super) nonlinear: &'a Rows,
     pub(super) bodies: &'a Bodies,
     pub(super) structure: &'a Structure,
@@ -48,8 +47,7 @@ pub(super) struct Given<'a> {
     pub(super) names: &'a dyn Fn(usize) -> String,
 }
 
-/// Builds all rows and completes those of the unknowns; `loads` are the forces on the bodies from outside
-/// \[N\].
+/// Builds all rows and completes those of the unknowns; `loads` are the forces on the bodies from outside \[N\].
 pub(super) fn build(
     given: &Given<'_>,
     loads: Vec<RowSum>,

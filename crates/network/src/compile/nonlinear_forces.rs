@@ -1,10 +1,9 @@
 //! Forces besides those of linear springs and dashpots: constant ones, and what laws that are not
 //! linear differ by from the spring and dashpot that stand for them.
 //!
-//! Such a difference is an algebraic unknown `φ` that acts on both ends like a load, with the balance
-//! `0 = f(y, ẏ) − k y − c ẏ − φ`. So the structure of a network is found as if it were linear, and
-//! the block of the algebraic unknowns is regular wherever the slopes of the laws themselves
-//! determine the network.
+//! Such a difference is an algebraic unknown `φ` that acts on both ends like a load, with the balance `0 = f(y, ẏ) − k
+//! y − c ẏ − φ`. So the structure of a network is found as if it were linear, and the block of the algebraic unknowns
+//! is regular wherever the slopes of the laws themselves determine the network.
 //!
 //! A law of the rate that is flat or steep at rest ([`Element::reflected`](crate::Element::reflected)) has
 //! the balance `0 = r(F + c ẏ) − φ` instead, which says the same: `φ` is `F − c ẏ`.
@@ -21,8 +20,7 @@ use super::{
     unknowns::{Draft, Inputs, Law, Places},
 };
 
-/// Adds the unknowns `φ` to `places` and all nonlinear forces to `loads`; returns that of each primitive
-/// that has one.
+/// Adds the unknowns `φ` to `places` and all nonlinear forces to `loads`; returns that of each primitive that has one.
 pub(super) fn add(
     expansion: &Expansion,
     bodies: &Bodies,

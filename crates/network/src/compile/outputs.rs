@@ -16,8 +16,7 @@ use crate::{
     Support, elements::Law, network::start_velocity,
 };
 
-/// Where the outputs of primitives stand, by the number of the primitive; those that take no part
-/// have none.
+/// Where the outputs of primitives stand, by the number of the primitive; those that take no part have none.
 pub(super) type Listed = BTreeMap<usize, usize>;
 
 /// All outputs, dimensionless, and where they are found.

@@ -18,8 +18,7 @@ use super::{
 };
 use crate::elements::Element;
 
-/// Sets the rates of those parts that switch and whose ends follow from balances; `time` \[s\] is the unit
-/// of time.
+/// Sets the rates of those parts that switch and whose ends follow from balances; `time` \[s\] is the unit of time.
 pub(super) fn complete(
     expansion: &Expansion,
     time: f64,

@@ -99,8 +99,7 @@ fn ahead(
     ahead
 }
 
-/// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of
-/// what it meets.
+/// Restitutions that do nothing: they act between masses, and a part without mass takes the speed of what it meets.
 fn idle_restitutions(network: &Network, parts: &Parts<'_>) -> Vec<NetworkWarning> {
     let mut groups = Groups::new(parts.expansion.joints);
     // What is between two contacts moves with what it touches, and is struck with it.
@@ -160,8 +159,7 @@ fn is_rigid(parts: &Parts<'_>, connection: usize) -> bool {
     leaves.map(|at| parts.expansion.primitives[at].law).all(|law| law == Law::Rigid)
 }
 
-/// Number of connections between each body and the nearest impactor, not passing through fixed
-/// nodes.
+/// Number of connections between each body and the nearest impactor, not passing through fixed nodes.
 fn distances(network: &Network, parts: &Parts<'_>) -> Vec<Option<usize>> {
     let count = parts.bodies.all.len();
     let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); count];

@@ -74,22 +74,18 @@ struct Place {
 }
 
 impl Place {
-    /// That of a row that is not there.
     const NONE: Self = Self { start: u32::MAX, middle: 0, end: 0 };
 }
 
 impl Rows {
-    /// Where the row is, if it is there.
     fn place(&self, at: usize) -> Option<Place> {
         self.places.get(at).copied().filter(|place| place.start != Place::NONE.start)
     }
 
-    /// Whether the row is there.
     pub(super) fn has(&self, at: usize) -> bool {
         self.place(at).is_some()
     }
 
-    /// The row, if it is there.
     pub(super) fn get(&self, at: usize) -> Option<Row> {
         let Place { start, middle, end } = self.place(at)?;
         let form = |from: u32, to: u32| {

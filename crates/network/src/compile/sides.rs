@@ -11,8 +11,7 @@ pub(super) trait Sum: Clone {
 /// beyond it, so that all sides of all links together are as many sums as there are links.
 #[derive(Debug)]
 pub(super) struct Sides<S> {
-    /// For each link that is the only way between its sides the joint below it, and whether that is its
-    /// first end.
+    /// For each link that is the only way between its sides the joint below it, and whether that is its first end.
     below: Vec<Option<(usize, bool)>>,
     /// The sum over each joint and those below it.
     down: Vec<S>,

@@ -30,9 +30,8 @@ fn within(structure: &Structure, places: &Places, body: usize) -> Row {
 }
 
 impl<'a> SpringBalance<'a> {
-    /// Eliminates the places of the algebraic clusters under the given `loads` on bodies, those
-    /// with few links first; the ones with more than `most_links` become algebraic unknowns, with
-    /// `length` as their scale.
+    /// Eliminates the places of the algebraic clusters under the given `loads` on bodies, those with few links first;
+    /// the ones with more than `most_links` become algebraic unknowns, with `length` as their scale.
     pub(super) fn solve(
         structure: &'a Structure,
         loads: &[RowSum],

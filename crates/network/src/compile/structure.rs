@@ -12,8 +12,7 @@ use super::{
 };
 use crate::{Network, NetworkError, Support, elements::Law};
 
-/// Deformations instead of positions are unknowns up to this many bodies only, because they make
-/// dense rows.
+/// Deformations instead of positions are unknowns up to this many bodies only, because they make dense rows.
 pub(super) const MOST_RELATIVE: usize = 100;
 /// Up to so many times the momentum of a mass, dashpots may take up within the run at its velocity and
 /// their rounding does no harm: six bits.
@@ -56,8 +55,7 @@ pub(super) struct Structure {
     pub(super) first_jump: Vec<Option<f64>>,
     /// The mass that each mass's velocity is counted from, if any.
     pub(super) velocity_base: Vec<Option<usize>>,
-    /// When what holds a mass to a given place must give way, in rising order: the motion has a kink
-    /// there \[s\].
+    /// When what holds a mass to a given place must give way, in rising order: the motion has a kink there \[s\].
     pub(super) kinks: Vec<f64>,
 }
 

@@ -23,7 +23,6 @@ use crate::NetworkError;
 pub(super) struct Scaling {
     /// SI value of 1 of each unknown, times the lift.
     columns: Vec<f64>,
-    /// The same of each input.
     input_columns: Vec<f64>,
     /// The unit of time \[s\].
     time: f64,
@@ -39,8 +38,7 @@ impl Scaling {
         Self { columns, input_columns: input_columns.collect(), time, lift }
     }
 
-    /// The forms of a row over unknowns and inputs in units of its largest coefficient, and this in SI
-    /// units.
+    /// The forms of a row over unknowns and inputs in units of its largest coefficient, and this in SI units.
     pub(super) fn scaled(&self, row: &Row) -> Result<(f64, [LinearForm; 2]), NetworkError> {
         let (own, given) = scaled(row, &self.columns, &self.input_columns);
         let scale = largest(&own).max(largest(&given));

@@ -20,8 +20,7 @@ pub(super) struct State {
     pub(super) deformation: Vec<f64>,
     /// Place of each joint \[m\].
     pub(super) position: Vec<f64>,
-    /// Velocity of each joint \[m/s\]; of no meaning for one that has neither mass nor a given
-    /// motion.
+    /// Velocity of each joint \[m/s\]; of no meaning for one that has neither mass nor a given motion.
     pub(super) velocity: Vec<f64>,
 }
 

@@ -1,12 +1,11 @@
 //! From which other body each body is counted: a spanning tree of springs and dashpots.
 //!
-//! The deformations of the parts in the tree are unknowns; that of a part beside the tree is the
-//! difference of its ends, a sum around a loop. Stiffnesses and dampings of the unknowns are then
-//! positive diagonals, to which each part beside the tree adds its own constant times the square of
-//! such a sum. Rounding of these sums loses what is smaller than that constant: so the parts beside
-//! the tree should be soft, lest the balance of slow motion be lost, and weakly damped, lest that of
-//! fast motion be. Where the softest part is not the least damped one, trees between the stiffest and
-//! the most damped are tried, and the one that loses least is taken.
+//! The deformations of the parts in the tree are unknowns; that of a part beside the tree is the difference of its
+//! ends, a sum around a loop. Stiffnesses and dampings of the unknowns are then positive diagonals, to which each part
+//! beside the tree adds its own constant times the square of such a sum. Rounding of these sums loses what is smaller
+//! than that constant: so the parts beside the tree should be soft, lest the balance of slow motion be lost, and weakly
+//! damped, lest that of fast motion be. Where the softest part is not the least damped one, trees between the stiffest
+//! and the most damped are tried, and the one that loses least is taken.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -114,8 +114,7 @@ impl Inputs {
 pub(super) struct Along {
     /// Number of the primitive.
     pub(super) primitive: usize,
-    /// By which its deformation gives the body's position unknown: 1, or −1 where it runs from the
-    /// parent to the body.
+    /// By which its deformation gives the body's position unknown: 1, or −1 where it runs from the parent to the body.
     pub(super) sign: f64,
     /// The position unknown where both bodies are at one place \[m\].
     pub(super) offset: f64,
@@ -159,8 +158,7 @@ pub(super) struct Places {
     pub(super) velocity_base: Vec<Option<usize>>,
     /// The body that a body's position unknown is counted from.
     pub(super) parent: Vec<Option<usize>>,
-    /// The part whose deformation a body's position unknown is, where one is between it and its
-    /// parent.
+    /// The part whose deformation a body's position unknown is, where one is between it and its parent.
     pub(super) along: Vec<Option<Along>>,
     /// Position of each body; of bodies in algebraic clusters relative to the cluster.
     pub(super) position: Rows,

@@ -137,9 +137,8 @@ parameters! {
     /// |         | `from`, `to` | s    | > 0, `to` after `from` |
     /// |         | `error`      | 1    | 1e-8 … 1               |
     ///
-    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
-    /// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
-    /// the thesis.
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of `spring` beside
+    /// `dashpot`. With two times that all but meet it is the single Kelvin element of the thesis.
     #[derive(Debug, Clone, PartialEq)]
     pub struct BoxFibre: "box-fibre",
         "fibre with retardation times alike between two, in the fewest Kelvin-Voigt elements"
@@ -184,9 +183,8 @@ parameters! {
     /// |         | `from`, `to` | s    | > 0, `to` after `from` |
     /// |         | `error`      | 1    | 1e-8 … 1               |
     ///
-    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of
-    /// `spring` beside `dashpot`. With two times that all but meet it is the single Kelvin element of
-    /// the thesis.
+    /// The model is the series of `kelvin-1`, `kelvin-2`, … in rising order of time, each made of `spring` beside
+    /// `dashpot`. With two times that all but meet it is the single Kelvin element of the thesis.
     #[derive(Debug, Clone, PartialEq)]
     pub struct PowerLawFibre: "power-law-fibre",
         "fibre with a power law of retardation times, in the fewest Kelvin-Voigt elements"
@@ -247,8 +245,7 @@ impl Kept {
         Ok(())
     }
 
-    /// The series `kelvin-1`, `kelvin-2`, … that stands for `spectrum`, with the note that says how
-    /// well.
+    /// The series `kelvin-1`, `kelvin-2`, … that stands for `spectrum`, with the note that says how well.
     fn composed(&self, spectrum: &dyn Spectrum) -> Result<Composed, InvalidParameter> {
         self.validate()?;
         let reduced = reduce(spectrum, [self.from, self.to], self.error).map_err(refused)?;

@@ -17,8 +17,7 @@ pub enum CompositeNote {
         error: f64,
         /// From when to when \[s\].
         range: [f64; 2],
-        /// Within which part of itself one element less could keep it at best; `None` where that is not
-        /// proved.
+        /// Within which part of itself one element less could keep it at best; `None` where that is not proved.
         one_less: Option<f64>,
     },
     /// The terms of a list are taken in rising order of time.

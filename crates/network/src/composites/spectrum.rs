@@ -13,12 +13,8 @@ use crate::{
 /// A time \[s\] and the strength that belongs to it, a stiffness \[N/m\] or a compliance \[m/N\].
 pub(super) type Term = (f64, f64);
 
-/// The terms in rising order of time.
-///
-/// # Errors
-///
-/// [`InvalidParameter`] that blames `parameter` when there are no terms, when a number is not
-/// positive and finite, or when a time stands twice.
+/// The terms in rising order of time. Errors: [`InvalidParameter`] that blames `parameter` when there are no terms,
+/// when a number is not positive and finite, or when a time stands twice.
 pub(super) fn sorted(
     parameter: &'static str,
     terms: &[Term],
@@ -77,10 +73,7 @@ pub(super) fn pair(
 
 /// Kelvin–Voigt elements in series, `kelvin-1` first, one for each term of retardation time `λ`
 /// \[s\] and compliance `J` \[m/N\]: spring `1/J` beside dashpot `λ/J`.
-///
-/// # Errors
-///
-/// [`InvalidParameter`] that blames `parameter` when a constant does not fit into double precision.
+/// Errors: [`InvalidParameter`] that blames `parameter` when a constant does not fit into double precision.
 pub(super) fn kelvin_chain(
     parameter: &'static str,
     terms: &[Term],

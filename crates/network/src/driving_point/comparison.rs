@@ -15,8 +15,7 @@ pub enum Agreement {
     },
     /// A pole or a strength differs.
     Different {
-        /// Angular frequency at which `H(iω)` disagrees most \[rad/s\]; 0 and infinity are the
-        /// limits.
+        /// Angular frequency at which `H(iω)` disagrees most \[rad/s\]; 0 and infinity are the limits.
         omega: f64,
         /// The disagreement there, `|H₁ − H₂|` over the larger of the two, between 0 and 2.
         size: f64,

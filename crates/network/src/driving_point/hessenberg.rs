@@ -13,10 +13,7 @@ const MOST_STEPS: usize = 120;
 /// All eigenvalues: reflections to Hessenberg form, then double-shift QR steps (Francis).
 ///
 /// The errors are those of a change of the matrix by some 10⁻³¹ of its norm.
-///
-/// # Errors
-///
-/// [`DrivingPointError::NoConvergence`] if the steps do not come to an end.
+/// Errors: [`DrivingPointError::NoConvergence`] if the steps do not come to an end.
 pub(super) fn eigenvalues(mut matrix: Matrix) -> Result<Vec<Complex>, DrivingPointError> {
     reduce(&mut matrix);
     let norm = matrix.iter().flatten().map(|entry| entry.high().abs()).sum();

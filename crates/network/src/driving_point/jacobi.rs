@@ -10,10 +10,7 @@ const MOST_SWEEPS: usize = 80;
 
 /// Rotates the columns among each other until they are orthogonal (one-sided Jacobi): their norms
 /// are then the singular values, each to its own relative accuracy where the columns are graded.
-///
-/// # Errors
-///
-/// [`DrivingPointError::NoConvergence`] if it doesn't come to an end.
+/// Errors: [`DrivingPointError::NoConvergence`] if it doesn't come to an end.
 pub(super) fn orthogonalise(columns: &mut [Vec<DoubleDouble>]) -> Result<(), DrivingPointError> {
     let mut squares: Vec<DoubleDouble> = columns.iter().map(|column| dot(column, column)).collect();
     for _ in 0..MOST_SWEEPS {

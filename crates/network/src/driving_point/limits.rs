@@ -31,8 +31,7 @@ impl Merged {
                 is_held[roots[body]] = true;
             }
         }
-        // The parts that the forces act on come last: of two bodies that are left, the balance is
-        // free of cancellation.
+        // The parts that the forces act on come last: of two bodies that are left, the balance is free of cancellation.
         let ends: Vec<usize> = circuit.forces.iter().flatten().map(|&body| roots[body]).collect();
         let mut parts: Vec<usize> =
             roots[..circuit.bodies].iter().copied().filter(|&root| !is_held[root]).collect();
@@ -84,10 +83,9 @@ impl Circuit {
 
     /// What the receptance is at vanishing rates: springs are rigid.
     ///
-    /// With `C` of the dashpots between the parts, `M` of their masses and `e` the pair of forces,
-    /// the free motion `X₂` is that of the total mass, and `C X₁ = e − M X₂` leaves `X₁` open by a
-    /// common motion of each free part only. Its moment `Σ m X₁` is zero, so `e·X₁` is
-    /// `(e − M X₂)·X₁`, which that motion does not change.
+    /// With `C` of the dashpots between the parts, `M` of their masses and `e` the pair of forces, the free motion `X₂`
+    /// is that of the total mass, and `C X₁ = e − M X₂` leaves `X₁` open by a common motion of each free part only. Its
+    /// moment `Σ m X₁` is zero, so `e·X₁` is `(e − M X₂)·X₁`, which that motion does not change.
     pub(super) fn origin(&self) -> Origin {
         let zero = DoubleDouble::ZERO;
         let merged = Merged::of(self, &self.springs, false);

@@ -4,9 +4,8 @@ use dashpot_numerics::DoubleDouble;
 
 use super::{Hidden, complex::Complex, terms::Term};
 
-/// The receptance `H(s) = J + Σ N(s − p)/D(s − p)` of a network at two nodes: a constant and a term
-/// for each pole, or for each group of poles that stand so close that single residues would be
-/// large and opposite.
+/// The receptance `H(s) = J + Σ N(s − p)/D(s − p)` of a network at two nodes: a constant and a term for each pole, or
+/// for each group of poles that stand so close that single residues would be large and opposite.
 ///
 /// Kept with twice the digits of a double.
 #[derive(Debug, Clone)]
@@ -25,8 +24,7 @@ pub struct Pole {
     pub at: [f64; 2],
     /// How many poles it stands for, as seen from outside: the degree of `D`.
     pub order: usize,
-    /// Coefficients of `D` besides the first, which is 1; the constant comes first. All zero where
-    /// the poles coincide.
+    /// Coefficients of `D` besides the first, which is 1; the constant comes first. All zero where the poles coincide.
     pub spread: Vec<[f64; 2]>,
     /// Coefficients of `N`, the constant first: for a simple pole its residue, for poles that
     /// coincide the Laurent coefficients, the one of `1/(s − p)^order` first.

@@ -15,9 +15,8 @@ const CLEAR: f64 = 1e3;
 
 /// All poles besides those at zero, in units of the circuit's time.
 ///
-/// The states are the forces of the springs (`K = F Fᵀ`) and the momenta of the masses
-/// (`M = G Gᵀ`), both weighted to energies. With `A = M + C + K = L Lᵀ` at the rate 1 the
-/// resolvent there is
+/// The states are the forces of the springs (`K = F Fᵀ`) and the momenta of the masses (`M = G Gᵀ`), both weighted to
+/// energies. With `A = M + C + K = L Lᵀ` at the rate 1 the resolvent there is
 ///
 /// ```text
 ///   T = ⎡ 1 − UᵀU   UᵀV ⎤      U = L⁻¹F,  V = L⁻¹G,
@@ -27,10 +26,7 @@ const CLEAR: f64 = 1e3;
 /// a matrix whose entries are below 1. Its eigenvalues are `1/(1 − λ)`; 0 for each part that
 /// follows its springs without delay and 1 for each that moves freely, neither of them defective.
 /// The graph says how many these are, so no threshold decides on them.
-///
-/// # Errors
-///
-/// [`DrivingPointError::NoConvergence`] where a pole cannot be told from those left out.
+/// Errors: [`DrivingPointError::NoConvergence`] where a pole cannot be told from those left out.
 pub(super) fn poles(circuit: &Circuit) -> Result<Vec<Complex>, DrivingPointError> {
     let zero = DoubleDouble::ZERO;
     let factor = circuit.stiffness_at_one().factor();

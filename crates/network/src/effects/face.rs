@@ -89,13 +89,7 @@ impl Face {
 }
 
 impl Effect for Face {
-    fn target(&self) -> Option<&str> {
-        Some(&self.element)
-    }
-
-    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
-        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
-    }
+    on_element!();
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
         if self.mass == 0.0 {

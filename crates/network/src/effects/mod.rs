@@ -1,5 +1,18 @@
 //! The register of effects: what acts on a network besides its elements, and only if asked for.
 
+/// What an effect on one element says of that.
+macro_rules! on_element {
+    () => {
+        fn target(&self) -> Option<&str> {
+            Some(&self.element)
+        }
+
+        fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
+            Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
+        }
+    };
+}
+
 mod face;
 mod gravity;
 mod separation;

@@ -68,13 +68,7 @@ impl Separation {
 }
 
 impl Effect for Separation {
-    fn target(&self) -> Option<&str> {
-        Some(&self.element)
-    }
-
-    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
-        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
-    }
+    on_element!();
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
         let site = Site::of(network, Self::KIND, &self.element, self.at.as_deref())?;

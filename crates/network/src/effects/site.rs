@@ -64,8 +64,7 @@ impl Site {
         network.connections[self.connection].never_pulls(self.end)
     }
 
-    /// Puts `face` in the place of the node at this end, and `link` between the two, in the order
-    /// of the element.
+    /// Puts `face` in the place of the node at this end, and `link` between the two, in the order of the element.
     pub(super) fn put_face(self, network: &mut Network, face: Node, link: Model) {
         let body = self.node(network);
         let face = network.add_node(face);

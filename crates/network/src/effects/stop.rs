@@ -109,13 +109,7 @@ impl Stop {
 }
 
 impl Effect for Stop {
-    fn target(&self) -> Option<&str> {
-        Some(&self.element)
-    }
-
-    fn on(&self, element: &str) -> Option<Arc<dyn Effect>> {
-        Some(Arc::new(Self { element: element.to_owned(), ..self.clone() }))
-    }
+    on_element!();
 
     fn rewrite(&self, network: &mut Network) -> Result<(), NetworkError> {
         let at = connection_of(network, Self::KIND, &self.element)?;

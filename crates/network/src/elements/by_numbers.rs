@@ -56,9 +56,8 @@ pub(super) fn rises<E: Element + ?Sized>(
     Ok(())
 }
 
-/// The secants of a law at its typical deformation \[N/m\] and rate \[N s/m\]; where one is zero, the largest
-/// at any of the [`PLACES`]: a law that begins beyond a gap, or damps one way only, has a stiffness and a
-/// damping all the same.
+/// The secants of a law at its typical deformation \[N/m\] and rate \[N s/m\]; where one is zero, the largest at any of
+/// the [`PLACES`]: a law that begins beyond a gap, or damps one way only, has a stiffness and a damping all the same.
 pub(super) fn secants<E: Element + ?Sized>(law: &E) -> [f64; 2] {
     let [deformation, rate] = law.typical();
     let over_y = |y: f64| law.force(y, 0.0) / y;

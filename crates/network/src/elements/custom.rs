@@ -20,16 +20,14 @@ type Parts = Tree<Arc<dyn Element>>;
 /// How well given slopes and energies must fit the force, in parts of its secant.
 const FIT: f64 = 1e-3;
 
-/// An element whose law is given as a function, `F(y, ẏ)` \[N\] over the deformation `y` \[m\] and
-/// its rate \[m/s\].
+/// An element whose law is given as a function, `F(y, ẏ)` \[N\] over the deformation `y` \[m\] and its rate \[m/s\].
 ///
-/// `y > 0` is compression, and `F > 0` pushes the ends apart. The function is asked for both signs of both, for
-/// trial values beyond those of the motion, and from several threads: it is to have a number everywhere, is to be
-/// continuous, and must fall neither with the one nor with the other; `F(0, 0) = 0`. That is checked up to three
-/// times what is [typical](Self::typically), and told by place where it is not so. What it has at rest is elastic:
-/// it stores `∫ F(s, 0) ds`, and dissipates `(F(y, ẏ) − F(y, 0)) ẏ`, which is never negative for such a law. That
-/// integral and the slopes are found by numbers, as [`Element::stored`] and [`Element::tangent`] say, unless they
-/// are given, too.
+/// `y > 0` is compression, and `F > 0` pushes the ends apart. The function is asked for both signs of both, for trial
+/// values beyond those of the motion, and from several threads: it is to have a number everywhere, is to be continuous,
+/// and must fall neither with the one nor with the other; `F(0, 0) = 0`. That is checked up to three times what is
+/// [typical](Self::typically), and told by place where it is not so. What it has at rest is elastic: it stores `∫ F(s,
+/// 0) ds`, and dissipates `(F(y, ẏ) − F(y, 0)) ẏ`, which is never negative for such a law. That integral and the slopes
+/// are found by numbers, as [`Element::stored`] and [`Element::tangent`] say, unless they are given, too.
 ///
 /// # Limits
 ///

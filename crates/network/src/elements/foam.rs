@@ -21,11 +21,10 @@ parameters! {
     /// | `h`    | `thickness`     | m    | > 0   |
     /// | `A`    | `area`          | m²   | > 0   |
     ///
-    /// `σ_p` is the stress of the plateau, and `B` is what densification adds to it at half the
-    /// thickness. The law is that of Avalle, Belingardi and Ibba with their exponent `m = 0`: so it
-    /// rises everywhere, while for `m > 0` it may fall at the end of the plateau. In tension the foam
-    /// is linear, with the slope that it has at rest. Strain and stress are those of the undeformed
-    /// block.
+    /// `σ_p` is the stress of the plateau, and `B` is what densification adds to it at half the thickness. The law is
+    /// that of Avalle, Belingardi and Ibba with their exponent `m = 0`: so it rises everywhere, while for `m > 0` it
+    /// may fall at the end of the plateau. In tension the foam is linear, with the slope that it has at rest. Strain
+    /// and stress are those of the undeformed block.
     ///
     /// The foam stores `h A ∫ σ dε` and dissipates none; foam that does is
     /// [`HystereticFoam`](super::HystereticFoam).

@@ -11,22 +11,21 @@ use super::{
 use crate::{
     parameters::{
         Described, Field, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
+        described_as,
     },
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
-/// A pad of independent columns that is pressed by a rigid body of a given shape, so that the loaded
-/// area grows with the deformation: `F(y) = ∫ σ dA`, with each column shortened by `y − z` under the
-/// gap `z`.
+/// A pad of independent columns that is pressed by a rigid body of a given shape, so that the loaded area grows with
+/// the deformation: `F(y) = ∫ σ dA`, with each column shortened by `y − z` under the gap `z`.
 ///
 /// | symbol | field      | unit | range |
 /// |--------|------------|------|-------|
 /// | `f`    | `law`      | N    | a law of the deformation, on one curve or on two |
 /// |        | `indenter` |      | see [`Indenter`] |
 ///
-/// `f` is the law of the pad where all of the area `A₀` of the body is loaded at once, `f(s) = A₀ σ(s/h)`. So
-/// `F(y) = (1/A₀) ∫ f(y − z) dA`, with `A(z)` of the [`Indenter`] and `y − z > 0`. For `f = k s` that is,
-/// up to the edge,
+/// `f` is the law of the pad where all of the area `A₀` of the body is loaded at once, `f(s) = A₀ σ(s/h)`. So `F(y) =
+/// (1/A₀) ∫ f(y − z) dA`, with `A(z)` of the [`Indenter`] and `y − z > 0`. For `f = k s` that is, up to the edge,
 ///
 /// * under a sphere or dome `F = (π k/A₀) (R y² − y³/3)`,
 /// * under a cylinder `F = (L k/A₀) (R² asin(w/R) − w (R − y))`, `w = √(2 R y − y²)`.
@@ -317,21 +316,7 @@ impl Pressed {
 }
 
 impl Described for Pressed {
-    fn kind(&self) -> &'static str {
-        self.pad.kind()
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        self.pad.parameters()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.pad.values()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.pad.validate()
-    }
+    described_as!(pad);
 }
 
 impl Element for Pressed {

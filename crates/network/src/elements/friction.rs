@@ -7,18 +7,16 @@ use crate::{
 };
 
 parameters! {
-    /// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks
-    /// (Coulomb).
+    /// A slider with dry friction, `F = F_c sgn ẏ` while it slides and `|F| ≤ F_c` while it sticks (Coulomb).
     ///
     /// | symbol    | field   | unit | range |
     /// |-----------|---------|------|-------|
     /// | `F_c`     | `force` | N    | ≥ 0   |
     /// | `F_s/F_c` | `ratio` | 1    | ≥ 1, 1 where left out |
     ///
-    /// It sticks where its rate comes to zero, and slides again where the force that holds it would
-    /// exceed that of static friction, `F_s`: sticking is exact, not a creep. It stores no energy and
-    /// dissipates `F_c |ẏ|`. `F_c = 0` is no slider at all. A mass that it holds to a given motion
-    /// slides where that has a kink.
+    /// It sticks where its rate comes to zero, and slides again where the force that holds it would exceed that of
+    /// static friction, `F_s`: sticking is exact, not a creep. It stores no energy and dissipates `F_c |ẏ|`. `F_c = 0`
+    /// is no slider at all. A mass that it holds to a given motion slides where that has a kink.
     ///
     /// # Limits
     ///

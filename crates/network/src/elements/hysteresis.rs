@@ -4,17 +4,15 @@ use std::sync::Arc;
 
 use super::{Element, Law, Tangent};
 use crate::{
-    parameters::{Described, InvalidParameter, Parameter, Value},
+    parameters::{Described, InvalidParameter, Parameter, Value, described_as},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
-/// A law with the force `f(y)` while it is pressed deeper than ever before, and `f(y) φ(y, y_m)`
-/// once it has turned back at `y_m`: up to that depth again, and down to the set, where the force
-/// is zero. It never pulls.
+/// A law with the force `f(y)` while it is pressed deeper than ever before, and `f(y) φ(y, y_m)` once it has turned
+/// back at `y_m`: up to that depth again, and down to the set, where the force is zero. It never pulls.
 ///
-/// `φ` rises with `y` from 0 or more to 1 at `y_m`, and never rises with `y_m`. So the second curve
-/// never lies above the first, and what it gives back grows by no more than the work that goes
-/// deeper: no history creates energy.
+/// `φ` rises with `y` from 0 or more to 1 at `y_m`, and never rises with `y_m`. So the second curve never lies above
+/// the first, and what it gives back grows by no more than the work that goes deeper: no history creates energy.
 pub trait TwoCurves {
     /// The first curve `f`, for deformations ≥ 0.
     fn loading(&self) -> &dyn Element;
@@ -25,13 +23,38 @@ pub trait TwoCurves {
     /// `φ` and its slope over the deformation \[1/m\].
     fn factor(&self, deformation: f64, deepest: f64) -> (f64, f64);
 
-    /// Energy \[J\] that unloading from `deepest` gives back from `deformation` on: the integral of
-    /// `f φ` from the set.
+    /// Energy \[J\] that unloading from `deepest` gives back from `deformation` on: the integral of `f φ` from the set.
     fn recoverable(&self, deformation: f64, deepest: f64) -> f64;
 
     /// Parts of the deepest deformation between which `φ` is smooth, the set among them.
     fn bends(&self) -> Vec<f64>;
 }
+
+/// The phases of an element of such a law.
+macro_rules! two_curves {
+    ($element:ty) => {
+        impl crate::phases::Phases for $element {
+            fn names(&self) -> &'static [&'static str] {
+                crate::elements::hysteresis::NAMES
+            }
+
+            fn first(&self, deformation: f64) -> crate::phases::Phase {
+                crate::elements::hysteresis::first(deformation)
+            }
+
+            fn law(&self, phase: crate::phases::Phase) -> crate::phases::PhaseLaw {
+                crate::elements::hysteresis::law(self, phase)
+            }
+
+            fn exits(&self, phase: crate::phases::Phase) -> Vec<crate::phases::Exit> {
+                crate::elements::hysteresis::exits(self, phase)
+            }
+        }
+
+        impl crate::elements::hysteresis::Hysteresis for $element {}
+    };
+}
+pub(super) use two_curves;
 
 /// An element of such a law.
 pub(super) trait Hysteresis: TwoCurves + Phases + Described + Clone + 'static {}
@@ -96,21 +119,7 @@ impl<H: Hysteresis> Curve<H> {
 }
 
 impl<H: Hysteresis> Described for Curve<H> {
-    fn kind(&self) -> &'static str {
-        self.law.kind()
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        self.law.parameters()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.law.values()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.law.validate()
-    }
+    described_as!(law);
 }
 
 impl<H: Hysteresis> Element for Curve<H> {

@@ -4,23 +4,19 @@ use dashpot_numerics::quadrature::integral;
 
 use super::{
     Element, Foam,
-    hysteresis::{self, Hysteresis, TwoCurves},
+    hysteresis::{TwoCurves, two_curves},
 };
-use crate::{
-    parameters::{
-        Described, Dimension, Field, Given, InvalidParameter, Kind, Parameter, ParameterKind,
-        Range, Value,
-    },
-    phases::{Exit, Phase, PhaseLaw, Phases},
+use crate::parameters::{
+    Described, Dimension, Field, Given, InvalidParameter, Kind, Parameter, ParameterKind, Range,
+    Value,
 };
 
 /// A block of foam that unloads on another curve than it was loaded on, and keeps a set.
 ///
-/// While it is pressed deeper than ever before, the force is that of a [`Foam`], `F = f(y)`. Where
-/// the deformation turns back at `y_m`, it remembers that depth and follows
-/// `F = f(y) s^q`, `s = (y − y_p)/(y_m − y_p)`, with the set `y_p = r y_m`. It is loaded again on
-/// the same curve, up to `y_m`, where the first one goes on. Below the set it is slack, `F = 0`: it
-/// pushes and never pulls, also when it is new.
+/// While it is pressed deeper than ever before, the force is that of a [`Foam`], `F = f(y)`. Where the deformation
+/// turns back at `y_m`, it remembers that depth and follows `F = f(y) s^q`, `s = (y − y_p)/(y_m − y_p)`, with the set
+/// `y_p = r y_m`. It is loaded again on the same curve, up to `y_m`, where the first one goes on. Below the set it is
+/// slack, `F = 0`: it pushes and never pulls, also when it is new.
 ///
 /// | symbol | field                | unit | range |
 /// |--------|----------------------|------|-------|
@@ -40,9 +36,8 @@ use crate::{
 ///
 /// # Limits
 ///
-/// It has one memory, the greatest deformation: a loop within the curve of unloading takes no
-/// energy, nothing heals with time, and no force depends on the rate. Beyond the strain 0.99 it is
-/// as straight as its [`Foam`].
+/// It has one memory, the greatest deformation: a loop within the curve of unloading takes no energy, nothing heals
+/// with time, and no force depends on the rate. Beyond the strain 0.99 it is as straight as its [`Foam`].
 ///
 /// # Examples
 ///
@@ -76,25 +71,7 @@ pub struct HystereticFoam {
     pub unloading_exponent: f64,
 }
 
-impl Phases for HystereticFoam {
-    fn names(&self) -> &'static [&'static str] {
-        hysteresis::NAMES
-    }
-
-    fn first(&self, deformation: f64) -> Phase {
-        hysteresis::first(deformation)
-    }
-
-    fn law(&self, phase: Phase) -> PhaseLaw {
-        hysteresis::law(self, phase)
-    }
-
-    fn exits(&self, phase: Phase) -> Vec<Exit> {
-        hysteresis::exits(self, phase)
-    }
-}
-
-impl Hysteresis for HystereticFoam {}
+two_curves!(HystereticFoam);
 
 impl TwoCurves for HystereticFoam {
     fn loading(&self) -> &dyn Element {
@@ -177,9 +154,12 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::elements::hysteresis::{
-        LOADING, SLACK, UNLOADING,
-        tests::{never_gives_more_than_it_took, travelled},
+    use crate::{
+        elements::hysteresis::{
+            LOADING, SLACK, UNLOADING,
+            tests::{never_gives_more_than_it_took, travelled},
+        },
+        phases::{Phase, PhaseLaw, Phases},
     };
 
     /// A foam that is linear as it is loaded, to 1e-9.

@@ -9,50 +9,43 @@ use dashpot_numerics::{
 
 use super::{
     Element, TableSpring,
-    hysteresis::{self, Hysteresis, TwoCurves},
+    hysteresis::{TwoCurves, two_curves},
     monotone::MonotoneCurve,
     table_spring::check,
 };
-use crate::{
-    parameters::{
-        CurveRole, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
-    },
-    phases::{Exit, Phase, PhaseLaw, Phases},
+use crate::parameters::{
+    CurveRole, Dimension, Given, InvalidParameter, Kind, Parameter, ParameterKind, Value,
 };
 
 /// A padding with a measured curve of loading and another one of unloading.
 ///
-/// While it is pressed deeper than ever before, the force is that of a [`TableSpring`] through the
-/// points of `loading`, `F = f(y)`. Where the deformation turns back at `y_m`, it follows
-/// `F = f(y) φ(y/y_m)`. It is loaded again on the same curve, up to `y_m`, where the first one goes
-/// on. Below the set, the last deformation of `unloading` without force as a part of `y_m`, it is
-/// slack: it pushes and never pulls, also when it is new.
+/// While it is pressed deeper than ever before, the force is that of a [`TableSpring`] through the points of `loading`,
+/// `F = f(y)`. Where the deformation turns back at `y_m`, it follows `F = f(y) φ(y/y_m)`. It is loaded again on the
+/// same curve, up to `y_m`, where the first one goes on. Below the set, the last deformation of `unloading` without
+/// force as a part of `y_m`, it is slack: it pushes and never pulls, also when it is new.
 ///
 /// | symbol     | field       | unit | range |
 /// |------------|-------------|------|-------|
 /// | `y_i, F_i` | `loading`   | m, N | from (0, 0), rising, forces never falling |
 /// | `y_j, U_j` | `unloading` | m, N | from a force of zero, rising, to a point of the curve of loading |
 ///
-/// The curve of unloading was measured from one depth `Y`, its last point: from there it is the
-/// curve `U` through its points, drawn as that of a [`TableSpring`]. What it is at other depths
-/// follows from the part of the first curve that it is, `φ(x) = U(x Y)/f(x Y)`: a straight line
-/// beside a straight line stays straight at all depths. At its points `φ` may not exceed 1, and may
-/// not fall as the deformation rises: else going deeper would give energy back. Where it would fall
-/// between two points all the same, `φ` is drawn through its values there as `f` is.
+/// The curve of unloading was measured from one depth `Y`, its last point: from there it is the curve `U` through its
+/// points, drawn as that of a [`TableSpring`]. What it is at other depths follows from the part of the first curve that
+/// it is, `φ(x) = U(x Y)/f(x Y)`: a straight line beside a straight line stays straight at all depths. At its points
+/// `φ` may not exceed 1, and may not fall as the deformation rises: else going deeper would give energy back. Where it
+/// would fall between two points all the same, `φ` is drawn through its values there as `f` is.
 ///
 /// # Energy
 ///
-/// It stores what it would give back, `W = ∫ f φ dy` from the set to `y` on the curve of unloading;
-/// on the first curve, that for `y_m = y`. All else that was put in is dissipated, and at once. A
-/// cycle from 0 to `Y` and back dissipates the area between the two curves. A mass that it stops at
-/// `Y` leaves with the part `√(∫ U dy / ∫ F dy)` of its speed.
+/// It stores what it would give back, `W = ∫ f φ dy` from the set to `y` on the curve of unloading; on the first curve,
+/// that for `y_m = y`. All else that was put in is dissipated, and at once. A cycle from 0 to `Y` and back dissipates
+/// the area between the two curves. A mass that it stops at `Y` leaves with the part `√(∫ U dy / ∫ F dy)` of its speed.
 ///
 /// # Limits
 ///
-/// It has one memory, the greatest deformation: a loop within the curve of unloading takes no
-/// energy, nothing heals with time, and no force depends on the rate. A measured curve holds for
-/// the rate at which it was measured. Beyond the last point of `loading` that curve goes on as a
-/// straight line, of which a run warns.
+/// It has one memory, the greatest deformation: a loop within the curve of unloading takes no energy, nothing heals
+/// with time, and no force depends on the rate. A measured curve holds for the rate at which it was measured. Beyond
+/// the last point of `loading` that curve goes on as a straight line, of which a run warns.
 ///
 /// # Examples
 ///
@@ -274,25 +267,7 @@ fn check_order(points: &[(f64, f64)]) -> Result<(), InvalidParameter> {
     Ok(())
 }
 
-impl Phases for HystereticTable {
-    fn names(&self) -> &'static [&'static str] {
-        hysteresis::NAMES
-    }
-
-    fn first(&self, deformation: f64) -> Phase {
-        hysteresis::first(deformation)
-    }
-
-    fn law(&self, phase: Phase) -> PhaseLaw {
-        hysteresis::law(self, phase)
-    }
-
-    fn exits(&self, phase: Phase) -> Vec<Exit> {
-        hysteresis::exits(self, phase)
-    }
-}
-
-impl Hysteresis for HystereticTable {}
+two_curves!(HystereticTable);
 
 impl TwoCurves for HystereticTable {
     fn loading(&self) -> &dyn Element {

@@ -31,11 +31,10 @@ parameters! {
     /// | `cylinder` | `radius`, `length`   | `z = R − √(R² − x²)`   | `2 L √(2 R z − z²)`, `2 R L` at most |
     /// | `flat`     | `diameter`           | `z = 0`                | `π d²/4`                       |
     ///
-    /// On a curved pad the gap is that between the two faces along the stroke, `z ± (R_p − √(R_p² − r²))`: a
-    /// pad that bulges towards the body adds its height, a hollow one, as a liner is for a head, takes it off.
-    /// To the first order in `r/R` that is a body of `1/R_e = 1/R + 1/R_p` on a flat pad. `R_p` is positive
-    /// for a bulge and negative for a hollow, which is wider than the body. The pad under a cylinder is
-    /// a cylinder of the same direction.
+    /// On a curved pad the gap is that between the two faces along the stroke, `z ± (R_p − √(R_p² − r²))`: a pad that
+    /// bulges towards the body adds its height, a hollow one, as a liner is for a head, takes it off. To the first
+    /// order in `r/R` that is a body of `1/R_e = 1/R + 1/R_p` on a flat pad. `R_p` is positive for a bulge and negative
+    /// for a hollow, which is wider than the body. The pad under a cylinder is a cylinder of the same direction.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Indenter: "pressed-by", "rigid body of a given shape that presses a pad",

@@ -3,8 +3,7 @@
 /// Cubics between points `(x_i, v_i)` with common slopes at the points (Fritsch and Carlson, slopes
 /// by Fritsch and Butland), and straight lines with the slopes at the ends beyond them.
 ///
-/// Where the values of the points never fall, the curve does not either, and lies between those of
-/// its neighbours.
+/// Where the values of the points never fall, the curve does not either, and lies between those of its neighbours.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct MonotoneCurve {
     points: Vec<(f64, f64)>,

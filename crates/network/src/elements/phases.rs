@@ -1,9 +1,8 @@
 //! Elements whose law changes at switchings: small state machines.
 //!
-//! A phase has a law and exits. An exit watches one quantity of the element and leads to another
-//! phase where that quantity passes a level in one direction. Which phases hold after an instant at
-//! which exits are reached is decided for all elements together: none of them may be on its way out
-//! again.
+//! A phase has a law and exits. An exit watches one quantity of the element and leads to another phase where that
+//! quantity passes a level in one direction. Which phases hold after an instant at which exits are reached is decided
+//! for all elements together: none of them may be on its way out again.
 
 use std::{fmt::Debug, sync::Arc};
 

@@ -15,10 +15,9 @@ use crate::{
 /// | `y_i`  | `points` | m    | rising, at least two |
 /// | `F_i`  | `points` | N    | never falling |
 ///
-/// The first and the last line go on without end. Each line is a phase of its own: the corners are
-/// located as switchings, and between them the law is linear, so that the exact method has it. The
-/// spring stores `∫ F dy` from where it has no force, and dissipates none. A curve that does not go through
-/// (0, 0) is that of a preloaded spring.
+/// The first and the last line go on without end. Each line is a phase of its own: the corners are located as
+/// switchings, and between them the law is linear, so that the exact method has it. The spring stores `∫ F dy` from
+/// where it has no force, and dissipates none. A curve that does not go through (0, 0) is that of a preloaded spring.
 ///
 /// # Limits
 ///

@@ -16,9 +16,8 @@ parameters! {
     /// | `k`    | `stiffness` | N/m  | > 0   |
     /// | `F₀`   | `preload`   | N    | finite |
     ///
-    /// It stores `F²/2k`, and dissipates none. With `F₀ < 0` it is
-    /// stretched. Something else must take the preload, a contact or stop for instance, or else the
-    /// spring moves what it lies between.
+    /// It stores `F²/2k`, and dissipates none. With `F₀ < 0` it is stretched. Something else must take the preload, a
+    /// contact or stop for instance, or else the spring moves what it lies between.
     ///
     /// # Limits
     ///

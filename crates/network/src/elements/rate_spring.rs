@@ -7,9 +7,8 @@ use super::{
 use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
-    /// A spring that is stiffer the faster it is loaded: a modulus that depends on strain and on rate,
-    /// `F = F_s(y)·(1 + φ(ẏ))` with `F_s = F_r (|y|/y_r)^n sgn y`, and `φ = a ln(1 + |ẏ|/v_r)` while it
-    /// is loaded, `y ẏ > 0`, else 0.
+    /// A spring that is stiffer the faster it is loaded: a modulus that depends on strain and on rate, `F = F_s(y)·(1 +
+    /// φ(ẏ))` with `F_s = F_r (|y|/y_r)^n sgn y`, and `φ = a ln(1 + |ẏ|/v_r)` while it is loaded, `y ẏ > 0`, else 0.
     ///
     /// | symbol | field            | unit | range |
     /// |--------|------------------|------|-------|
@@ -23,11 +22,10 @@ parameters! {
     ///
     /// # Energy
     ///
-    /// The spring stores `W(y) = ∫ F_s dy`. A product `E1(rate)·E2(strain)` that works in unloading, too,
-    /// creates energy: what is loaded slowly and unloaded fast returns more than it took up. Here
-    /// `F ẏ = F_s ẏ + F_s ẏ φ` while `F_s ẏ > 0`, and `F ẏ = F_s ẏ` else. So `F ẏ − dW/dt ≥ 0` at every
-    /// instant, and no closed cycle creates energy. Because `φ = 0` at rest, the force is continuous
-    /// where loading ends; its slope over the rate is not.
+    /// The spring stores `W(y) = ∫ F_s dy`. A product `E1(rate)·E2(strain)` that works in unloading, too, creates
+    /// energy: what is loaded slowly and unloaded fast returns more than it took up. Here `F ẏ = F_s ẏ + F_s ẏ φ` while
+    /// `F_s ẏ > 0`, and `F ẏ = F_s ẏ` else. So `F ẏ − dW/dt ≥ 0` at every instant, and no closed cycle creates energy.
+    /// Because `φ = 0` at rest, the force is continuous where loading ends; its slope over the rate is not.
     ///
     /// # Limits
     ///

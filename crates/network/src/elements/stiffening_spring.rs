@@ -6,8 +6,7 @@ use super::{Element, Law, Tangent, power::in_range};
 use crate::{parameters, parameters::InvalidParameter};
 
 parameters! {
-    /// A spring that stiffens without bound towards a limit of its deformation,
-    /// `F = (2 k L/π) tan(π y/(2 L))`.
+    /// A spring that stiffens without bound towards a limit of its deformation, `F = (2 k L/π) tan(π y/(2 L))`.
     ///
     /// | symbol | field       | unit | range |
     /// |--------|-------------|------|-------|

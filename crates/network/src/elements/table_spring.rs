@@ -19,11 +19,10 @@ use crate::parameters::{
 ///
 /// # Limits
 ///
-/// Beyond the first and the last point the curve goes on as a straight line with the slope that it
-/// has there: for three points or more that of the parabola through the last three, so it is
-/// steeper or flatter than the last interval. A run warns of it. So a table that begins at (0, 0) says nothing of tension: the spring pulls with the
-/// slope at rest, which is zero where the curve begins bent upwards. A first point such as
-/// `["-10 mm", "0 N"]` keeps it from pulling.
+/// Beyond the first and the last point the curve goes on as a straight line with the slope that it has there: for three
+/// points or more that of the parabola through the last three, so it is steeper or flatter than the last interval. A
+/// run warns of it. So a table that begins at (0, 0) says nothing of tension: the spring pulls with the slope at rest,
+/// which is zero where the curve begins bent upwards. A first point such as `["-10 mm", "0 N"]` keeps it from pulling.
 ///
 /// # Examples
 ///
@@ -54,8 +53,7 @@ impl TableSpring {
     /// # Errors
     ///
     /// [`InvalidParameter`] for fewer than two points, numbers that are not finite, deformations
-    /// that do not rise, forces that fall, a force that is the same everywhere, and points of which
-    /// none is (0, 0).
+    /// that do not rise, forces that fall, a force that is the same everywhere, and points of which none is (0, 0).
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, InvalidParameter> {
         check(POINTS, &points)?;
         let spring = Self::through(points);

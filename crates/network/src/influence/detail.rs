@@ -8,8 +8,7 @@ use crate::{
 /// A detail of a network that it can be without: another network that is simpler.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Detail {
-    /// The effect of this position in [`Network::effects`]. Without it the network is that whose
-    /// effect is off.
+    /// The effect of this position in [`Network::effects`]. Without it the network is that whose effect is off.
     Effect(usize),
     /// The mass of the layers of the connection of this position in [`Network::connections`].
     /// Without it they have no density.
@@ -33,8 +32,7 @@ impl Detail {
             .collect()
     }
 
-    /// What it is called, for instance `gravity`, `face.padding`, `inertia of padding`,
-    /// `compliance of panel`.
+    /// What it is called, for instance `gravity`, `face.padding`, `inertia of padding`, `compliance of panel`.
     pub fn name(self, network: &Network) -> String {
         match self {
             Self::Effect(at) => {
@@ -47,8 +45,7 @@ impl Detail {
         }
     }
 
-    /// The dimensionless numbers that measure how much it matters; none where the scales do not
-    /// tell.
+    /// The dimensionless numbers that measure how much it matters; none where the scales do not tell.
     pub fn influences(self, situation: &Situation<'_>) -> Vec<Influence> {
         let network = situation.network;
         let found = match self {
@@ -133,8 +130,7 @@ fn inertia(situation: &Situation<'_>, connection: &Connection) -> Vec<Influence>
     vec![Influence::new("Σ L/c · √(K/m1)", transit * omega)]
 }
 
-/// The displacement of a support that is struck over that of the impactor, `γ/(1 + α + β)` in the groups of the
-/// thesis.
+/// The displacement of a support that is struck over that of the impactor, `γ/(1 + α + β)` in the groups of the thesis.
 fn compliance(situation: &Situation<'_>, id: NodeId) -> Vec<Influence> {
     let Some(impact) = &situation.impact else { return Vec::new() };
     let (network, passage) = (situation.network, impact.passage());

@@ -81,8 +81,7 @@ impl Influence {
         all.into_iter().max_by(|one, other| one.value.total_cmp(&other.value))
     }
 
-    /// The part of `reach` that lies beyond `limit`, both ≥ 0: `1 − limit/reach`, 0 where the limit
-    /// is not reached.
+    /// The part of `reach` that lies beyond `limit`, both ≥ 0: `1 − limit/reach`, 0 where the limit is not reached.
     pub(crate) fn beyond(formula: impl Into<String>, reach: f64, limit: f64) -> Self {
         Self::new(formula, if reach > limit { 1.0 - limit / reach } else { 0.0 })
     }

@@ -125,8 +125,7 @@ pub struct Connection {
     pub between: [NodeId; 2],
     /// Its law.
     pub model: Model,
-    /// Thickness \[m\] of the pad that it stands for, where it is one: deformation beyond it is
-    /// warned of.
+    /// Thickness \[m\] of the pad that it stands for, where it is one: deformation beyond it is warned of.
     pub thickness: Option<f64>,
     /// Area \[m²\] of the pad that it stands for, where it is known.
     pub area: Option<f64>,

@@ -67,10 +67,9 @@ impl ImpactScales {
 }
 
 impl<'n> Situation<'n> {
-    /// The depth \[m\] to which a connection is pressed in at most, as far as scales tell:
-    /// `V0 √(m1/K)` by an impact, at which its spring would hold all of the energy (of a law that is
-    /// not linear, the depth at which it has taken that up), `F/K` by forces,
-    /// and the given motions. `None` where nothing acts on it, or nothing resists.
+    /// The depth \[m\] to which a connection is pressed in at most, as far as scales tell: `V0 √(m1/K)` by an impact,
+    /// at which its spring would hold all of the energy (of a law that is not linear, the depth at which it has taken
+    /// that up), `F/K` by forces, and the given motions. `None` where nothing acts on it, or nothing resists.
     pub fn depth(&self, connection: &Connection) -> Option<f64> {
         let struck = self.impact.as_ref().and_then(|impact| {
             let energy = 0.5 * impact.mass * impact.speed * impact.speed;
@@ -87,8 +86,7 @@ impl<'n> Situation<'n> {
         (depth > 0.0 && depth.is_finite()).then_some(depth)
     }
 
-    /// The largest force \[N\] that loads and given motions make in a connection, as far as scales
-    /// tell.
+    /// The largest force \[N\] that loads and given motions make in a connection, as far as scales tell.
     pub fn drive_without_weight(&self, connection: &Connection) -> f64 {
         let pressed =
             if self.motion > 0.0 { self.stiffness(connection) * self.motion } else { 0.0 };

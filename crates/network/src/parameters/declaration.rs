@@ -66,8 +66,7 @@ pub trait Kind: Described + Sized + 'static {
     const KIND: &'static str;
     /// One line for a list: what it is, law, unit.
     const SUMMARY: &'static str;
-    /// Its parameters; where one alone is required, a scene may write its value alone
-    /// (`{ spring = "20 MN/m" }`).
+    /// Its parameters; where one alone is required, a scene may write its value alone (`{ spring = "20 MN/m" }`).
     const PARAMETERS: &'static [Parameter];
 
     /// The thing with these values, one for each of [`PARAMETERS`](Self::PARAMETERS).
@@ -288,8 +287,29 @@ pub mod words {
     };
 }
 
-/// Declares an enum whose variants are the words of a [`Choice`](crate::parameters::ParameterKind),
-/// each with its word.
+/// What an element that stands for a field says of itself: what that says.
+macro_rules! described_as {
+    ($field:ident) => {
+        fn kind(&self) -> &'static str {
+            self.$field.kind()
+        }
+
+        fn parameters(&self) -> &'static [Parameter] {
+            self.$field.parameters()
+        }
+
+        fn values(&self) -> Vec<Value> {
+            self.$field.values()
+        }
+
+        fn validate(&self) -> Result<(), InvalidParameter> {
+            self.$field.validate()
+        }
+    };
+}
+pub(crate) use described_as;
+
+/// Declares an enum whose variants are the words of a [`Choice`](crate::parameters::ParameterKind), each with its word.
 #[macro_export]
 macro_rules! choices {
     (
@@ -366,16 +386,14 @@ macro_rules! choices {
 /// # Ok::<(), dashpot_network::parameters::InvalidParameter>(())
 /// ```
 ///
-/// The head has word and summary, and where ranges are not all that is checked, what checks the
-/// rest. Every field is a parameter. Its comment is the line of help: what it is, symbol, unit,
-/// range. Then come its key where it is not the field's name, the [`ParameterKind`] of its value,
-/// and, in any order, `default` (as a scene would write it), `follows` (from what, in words; the
-/// field is then an `Option`), and the [`Range`] of its number,
+/// The head has word and summary, and where ranges are not all that is checked, what checks the rest. Every field is a
+/// parameter. Its comment is the line of help: what it is, symbol, unit, range. Then come its key where it is not the
+/// field's name, the [`ParameterKind`] of its value, and, in any order, `default` (as a scene would write it),
+/// `follows` (from what, in words; the field is then an `Option`), and the [`Range`] of its number,
 /// [`Finite`](crate::parameters::Range::Finite) where none is stated. `field: Type => PARAMETER` takes over a [`Parameter`] that several kinds share.
-/// A struct `on` a field has the name of what it acts on there, which is no parameter: made of values
-/// it is that of the example. Below stands
-/// an example of the fields, as `sample` or as `default`, which writes [`Default`]; without either it
-/// is the [`Default`] that is there.
+/// A struct `on` a field has the name of what it acts on there, which is no parameter: made of values it is that of the
+/// example. Below stands an example of the fields, as `sample` or as `default`, which writes [`Default`]; without
+/// either it is the [`Default`] that is there.
 ///
 /// [`ParameterKind`]: crate::parameters::ParameterKind
 /// [`Range`]: crate::parameters::Range

@@ -1,5 +1,4 @@
-//! What a kind says about its parameters, so that parser, help, schema and tests need no second
-//! list.
+//! What a kind says about its parameters, so that parser, help, schema and tests need no second list.
 
 mod declaration;
 mod range;
@@ -10,6 +9,7 @@ pub use dashpot_formula::{Formula, Variable};
 pub use dashpot_units::Dimension;
 use thiserror::Error;
 
+pub(crate) use declaration::described_as;
 pub use declaration::{Described, Field, Given, Kind, Registered, registered, words};
 pub use range::Range;
 pub(crate) use range::kelvins;
@@ -19,8 +19,7 @@ pub(crate) use range::kelvins;
 pub enum ParameterKind {
     /// A number of the given dimension.
     Quantity(Dimension),
-    /// A difference of two temperatures \[K\]. Degrees Celsius count from a point of their own, so
-    /// they do not say one.
+    /// A difference of two temperatures \[K\]. Degrees Celsius count from a point of their own, so they do not say one.
     TemperatureDifference,
     /// A number with the dimension of what is driven: force for a load, length for a motion.
     Amplitude,
@@ -79,8 +78,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// What its value is.
     pub kind: ParameterKind,
-    /// Value where the key is left out, in the form in which it would be written; `None` if it is
-    /// required.
+    /// Value where the key is left out, in the form in which it would be written; `None` if it is required.
     pub default: Option<&'static str>,
     /// Whether it follows from the rest of the scene where the key is left out: the default then
     /// says in words from what, and the value is [`Value::LeftOut`].
@@ -106,8 +104,7 @@ impl Parameter {
         Self { default: Some(text), ..self }
     }
 
-    /// The same where it may be left out and then follows from the rest of the scene; `from` says
-    /// how.
+    /// The same where it may be left out and then follows from the rest of the scene; `from` says how.
     #[must_use]
     pub const fn follows(self, from: &'static str) -> Self {
         Self { default: Some(from), follows: true, ..self }

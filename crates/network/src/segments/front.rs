@@ -1,10 +1,9 @@
 //! Fronts that are steeper than segments can be.
 //!
-//! A body that strikes a layer, or a load that jumps at its face, sends a step into it. A chain of
-//! segments answers to a step with ripples that get narrower with more segments, but not lower: the
-//! force on the face rises to `∫₀ᶻ J₀ = 1.470` of the true one at `z = 2.405`. Where a dashpot leads
-//! from face to face, a body of start speed `v` meets `2 n c v` at once, and without segments a force
-//! without limit.
+//! A body that strikes a layer, or a load that jumps at its face, sends a step into it. A chain of segments answers to
+//! a step with ripples that get narrower with more segments, but not lower: the force on the face rises to `∫₀ᶻ J₀ =
+//! 1.470` of the true one at `z = 2.405`. Where a dashpot leads from face to face, a body of start speed `v` meets `2 n
+//! c v` at once, and without segments a force without limit.
 
 use super::Recut;
 use crate::{

@@ -11,10 +11,7 @@ use crate::{
 };
 
 /// Puts the masses of all layers into the network.
-///
-/// # Errors
-///
-/// [`NetworkError::Invalid`] for layers that cannot be resolved as asked.
+/// Errors: [`NetworkError::Invalid`] for layers that cannot be resolved as asked.
 pub(crate) fn resolve(network: &mut Network) -> Result<(), NetworkError> {
     for at in 0..network.connections.len() {
         let connection = &network.connections[at];

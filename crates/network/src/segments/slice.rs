@@ -7,7 +7,7 @@ use dashpot_rheology::{Branch, Tree};
 use crate::{
     Element, Model,
     elements::{Dashpot, Law, Spring, Tangent},
-    parameters::{Described, InvalidParameter, Parameter, Value},
+    parameters::{Described, InvalidParameter, Parameter, Value, described_as},
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
 
@@ -58,21 +58,7 @@ struct Slice {
 }
 
 impl Described for Slice {
-    fn kind(&self) -> &'static str {
-        self.of.kind()
-    }
-
-    fn parameters(&self) -> &'static [Parameter] {
-        self.of.parameters()
-    }
-
-    fn values(&self) -> Vec<Value> {
-        self.of.values()
-    }
-
-    fn validate(&self) -> Result<(), InvalidParameter> {
-        self.of.validate()
-    }
+    described_as!(of);
 }
 
 impl Element for Slice {

@@ -35,8 +35,7 @@ parameters! {
         pub temperature: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
         /// temperature T_ref at which the times of the model hold [K or degC], above absolute zero
         pub reference: f64 = Quantity(Dimension::TEMPERATURE), range AboveAbsoluteZero;
-        /// activation energy E, for instance "80 kJ/mol"; without "/mol" that of one molecule [J],
-        /// zero or positive
+        /// activation energy E, for instance "80 kJ/mol"; without "/mol" that of one molecule [J], zero or positive
         pub energy: f64 = Quantity(Dimension::ENERGY), range NonNegative;
     }
     sample { temperature: 308.15, reference: 293.15, energy: 1.328_431_253_739_077e-19 }

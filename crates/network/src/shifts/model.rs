@@ -12,9 +12,8 @@ use crate::{
     phases::{Phase, PhaseLaw},
 };
 
-/// The model with all its times multiplied by `factor` \[1\], which is positive: every dashpot
-/// constant is multiplied by it, and all else is kept. Springs of any law have no time, and neither
-/// do dry friction, rigid contact and foam.
+/// The model with all its times multiplied by `factor` \[1\], which is positive: every dashpot constant is multiplied
+/// by it, and all else is kept. Springs of any law have no time, and neither do dry friction, rigid contact and foam.
 ///
 /// # Examples
 ///
@@ -32,8 +31,7 @@ use crate::{
 /// # Errors
 ///
 /// [`InvalidParameter`] when the factor is not positive and finite, when a dashpot constant
-/// does not fit into double precision, or for an element whose force depends on the rate, but not
-/// in proportion to it.
+/// does not fit into double precision, or for an element whose force depends on the rate, but not in proportion to it.
 pub fn shifted(model: &Model, factor: f64) -> Result<Model, InvalidParameter> {
     Range::Positive.check("factor", factor)?;
     model.try_map(|element| shifted_element(element, factor))

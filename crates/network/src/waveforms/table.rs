@@ -35,9 +35,8 @@ parameters! {
     ///
     /// # Limits
     ///
-    /// It has a kink at each point, which a motion must not have at a node with mass. Between points
-    /// nothing is known but a straight line, so a measured curve needs as many points as its bends ask
-    /// for; no filter is applied to it.
+    /// It has a kink at each point, which a motion must not have at a node with mass. Between points nothing is known
+    /// but a straight line, so a measured curve needs as many points as its bends ask for; no filter is applied to it.
     ///
     /// # References
     ///
@@ -48,8 +47,7 @@ parameters! {
     {
         /// points [time, value] in order of time, for instance [["0 ms", "0 N"], …]
         pub points: Vec<(f64, f64)> = TimeTable;
-        /// before the first and after the last point: its value for ever (`hold`), zero, or no run
-        /// so long (`error`)
+        /// before the first and after the last point: its value for ever (`hold`), zero, or no run so long (`error`)
         pub outside: Option<Outside> = Choice(Outside::WORDS),
             follows "`hold`, with a warning where that matters";
     }

@@ -17,8 +17,7 @@ parameters! {
     /// |        | `fall`  | s            | ≥ 0; the three are not all 0 |
     /// | `t₀`   | `start` | s            | finite, 0 where left out     |
     ///
-    /// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no
-    /// `hold`.
+    /// A rise or fall of zero is a jump: a rectangular pulse has both, a sawtooth one of them and no `hold`.
     ///
     /// # Limits
     ///
@@ -27,8 +26,7 @@ parameters! {
     ///
     /// # References
     ///
-    /// `iec60068-2-27` in `docs/references.bib`: the trapezoidal pulse, and the saw-tooth with its peak
-    /// at the end.
+    /// `iec60068-2-27` in `docs/references.bib`: the trapezoidal pulse, and the saw-tooth with its peak at the end.
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Trapezoid: "trapezoid",
         "linear from 0 to `peak` within `rise`, constant for `hold`, back to 0 within `fall`",

@@ -82,12 +82,11 @@ impl Burgers {
     /// K4 = K2 (α + β − c)/(2β)       C4 = K4/(α + β)
     /// ```
     ///
-    /// As printed, A.9 has `K2/C1` twice, where one is `K1/C1`, and A.10 lacks the root. The model
-    /// always exists: `4β² = (a − c)² + b² + 2b (a + c) > 0`, and `0 ≤ β < α`. These formulas
-    /// subtract nearly equal numbers. Here `a − c` is taken by a fused difference of products,
-    /// with `p = ½ (a − c + b)` the smaller one of `K3 = K2 (β − p)/(2β)` and `K4 = K2 (β + p)/(2β)`
-    /// follows from `β² − p² = b c`, and the lower rate from the product `a c` of both. Each constant
-    /// is right to a few units in its last place.
+    /// As printed, A.9 has `K2/C1` twice, where one is `K1/C1`, and A.10 lacks the root. The model always exists: `4β²
+    /// = (a − c)² + b² + 2b (a + c) > 0`, and `0 ≤ β < α`. These formulas subtract nearly equal numbers. Here `a − c`
+    /// is taken by a fused difference of products, with `p = ½ (a − c + b)` the smaller one of `K3 = K2 (β − p)/(2β)`
+    /// and `K4 = K2 (β + p)/(2β)` follows from `β² − p² = b c`, and the lower rate from the product `a c` of both. Each
+    /// constant is right to a few units in its last place.
     ///
     /// # Examples
     ///

@@ -31,8 +31,7 @@ pub struct Disagreement {
     pub omega: f64,
     /// That difference, `|Q₁(iω) − Q₂(iω)|` over the larger of the two.
     pub stiffness: f64,
-    /// Time of the largest difference of the creep compliances \[s\]; 0 and infinity stand for the
-    /// limits.
+    /// Time of the largest difference of the creep compliances \[s\]; 0 and infinity stand for the limits.
     pub time: f64,
     /// That difference, `|J₁(t) − J₂(t)|` over the larger of the two.
     pub creep: f64,

@@ -73,8 +73,7 @@ impl From<Primitive> for LinearModel {
 }
 
 impl LinearModel {
-    /// A single spring, dashpot or rigid link. A spring or dashpot with the constant zero bears no
-    /// force.
+    /// A single spring, dashpot or rigid link. A spring or dashpot with the constant zero bears no force.
     pub fn primitive(primitive: Primitive) -> Self {
         Self::finished(Half::primitive(primitive), Vec::new())
     }

@@ -132,8 +132,7 @@ impl Derived {
         }
     }
 
-    /// The other form. A zero `x` of `F = c − Σ w/(x − p)` moves by `−dF/F'`, and its strength is
-    /// `1/(x F')`.
+    /// The other form. A zero `x` of `F = c − Σ w/(x − p)` moves by `−dF/F'`, and its strength is `1/(x F')`.
     fn reciprocal(&self) -> Self {
         let fractions = self.fractions.reciprocal();
         let own = &self.fractions;

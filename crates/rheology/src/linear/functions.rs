@@ -49,8 +49,7 @@ impl LinearModel {
         form.0.at_zero.high() + form.0.weighted(term)
     }
 
-    /// Loss stiffness `k″ = Im Q(iω)` \[N/m\] at the angular frequency `ω > 0` \[rad/s\]; 0 for a
-    /// rigid link.
+    /// Loss stiffness `k″ = Im Q(iω)` \[N/m\] at the angular frequency `ω > 0` \[rad/s\]; 0 for a rigid link.
     pub fn loss(&self, omega: f64) -> f64 {
         let Some(form) = &self.maxwell else { return 0.0 };
         let term = |rate: f64| 1.0 / (omega / rate + rate / omega);

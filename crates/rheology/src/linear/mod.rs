@@ -48,8 +48,7 @@ pub enum Primitive {
 /// One of them can't be seen from outside: it is a pole that a zero cancels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Merged {
-    /// Which times: [`Canonical::Maxwell`] for relaxation times, [`Canonical::Kelvin`] for
-    /// retardation times.
+    /// Which times: [`Canonical::Maxwell`] for relaxation times, [`Canonical::Kelvin`] for retardation times.
     pub form: Canonical,
     /// The time of the one mode \[s\].
     pub time: f64,
@@ -123,9 +122,8 @@ impl LinearModel {
         &self.merged
     }
 
-    /// The model whose retardance is `J_g + φ₀/s + Σ φ_i/(s + z_i)`; `modes` are the pairs
-    /// `(z_i, φ_i)` in any order \[1/s, m/(N s)\]. All constants are finite, `J_g, φ₀ ≥ 0` and
-    /// `z_i, φ_i > 0`; no two rates are equal.
+    /// The model whose retardance is `J_g + φ₀/s + Σ φ_i/(s + z_i)`; `modes` are the pairs `(z_i, φ_i)` in any order
+    /// \[1/s, m/(N s)\]. All constants are finite, `J_g, φ₀ ≥ 0` and `z_i, φ_i > 0`; no two rates are equal.
     pub fn from_kelvin(
         spring_compliance: DoubleDouble,
         fluidity: DoubleDouble,

@@ -1,9 +1,8 @@
 //! The secular equation `c − Σ w_j/(x − p_j) = 0`.
 //!
-//! Between two poles the left side rises from −∞ to ∞, so there is one zero. It is sought as the
-//! distance from the nearer pole: near a pole the zero itself has no digits left for its distance,
-//! and everything that follows depends on distances. A safeguarded Newton iteration in doubles is
-//! polished in twice their digits.
+//! Between two poles the left side rises from −∞ to ∞, so there is one zero. It is sought as the distance from the
+//! nearer pole: near a pole the zero itself has no digits left for its distance, and everything that follows depends on
+//! distances. A safeguarded Newton iteration in doubles is polished in twice their digits.
 
 use dashpot_numerics::{DoubleDouble, roots::Bracket};
 

@@ -226,8 +226,7 @@ struct Column {
 impl Column {
     fn new(target: &Target<'_>, [start, end]: [f64; 2], time: f64) -> Self {
         let values = std::array::from_fn(|index| {
-            // Dense towards both ends: the least mean square over such instants is near the least
-            // maximum.
+            // Dense towards both ends: the least mean square over such instants is near the least maximum.
             let angle = (index as f64 + 0.5) * PI / INSTANTS as f64;
             let place = 0.5 * (start + end) - 0.5 * (end - start) * angle.cos();
             approach((place - time).exp()) / target.quick_share(place)
@@ -262,8 +261,7 @@ pub(super) fn single(target: &Target<'_>) -> Sum {
     Sum { terms: best.map(|(_, term)| term).into_iter().collect() }
 }
 
-/// The pair of least mean square deviation among a row of times and splittings of the best single
-/// term.
+/// The pair of least mean square deviation among a row of times and splittings of the best single term.
 pub(super) fn pair(target: &Target<'_>, time: f64, strength: f64) -> Sum {
     let range = target.steep_range();
     let mut columns = columns(target, range);

@@ -37,8 +37,7 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// A spectrum of the total compliance `compliance` \[m/N\] from the retardation time `shortest`
-    /// to `longest` \[s\].
+    /// A spectrum of the total compliance `compliance` \[m/N\] from the retardation time `shortest` to `longest` \[s\].
     ///
     /// # Errors
     ///
@@ -67,8 +66,7 @@ impl PowerLaw {
                 value: longest,
             });
         }
-        // The places are measured from the end where the density is greatest, so that nothing
-        // overflows.
+        // The places are measured from the end where the density is greatest, so that nothing overflows.
         let ratio = (longest - shortest) / shortest;
         let span = if ratio.is_finite() { ratio.ln_1p() } else { longest.ln() - shortest.ln() };
         let (anchor, direction) = if exponent > 0.0 { (longest, -1.0) } else { (shortest, 1.0) };
@@ -98,8 +96,7 @@ impl PowerLaw {
     /// `R(t) = J (1 − (E1(t/λ_max) − E1(t/λ_min))/ln(λ_max/λ_min))` with the exponential integral
     /// `E1`. As the two times meet, the spectrum becomes a single Kelvin–Voigt element.
     ///
-    /// The closed form loses digits at short times, where `R` is small against 1; the quadrature does
-    /// not.
+    /// The closed form loses digits at short times, where `R` is small against 1; the quadrature does not.
     ///
     /// # Errors
     ///
@@ -141,10 +138,9 @@ impl Spectrum for PowerLaw {
 /// `time` is the median, `width` the standard deviation of `log10 λ`. As the width goes to zero,
 /// the spectrum becomes a single Kelvin–Voigt element.
 ///
-/// The integral is taken by the trapezoidal rule in `ln λ`. In a strip `|Im ln λ| ≤ d < π/2`, the
-/// integrand is analytic and `e^(d²/2σ²)` times greater than on the axis, so that a step `h` has the
-/// relative error `e^(−2πd/h + d²/2σ²)`. That is 1e-14 at most with the step of 0.27, and 0.45 σ for
-/// the narrow.
+/// The integral is taken by the trapezoidal rule in `ln λ`. In a strip `|Im ln λ| ≤ d < π/2`, the integrand is analytic
+/// and `e^(d²/2σ²)` times greater than on the axis, so that a step `h` has the relative error `e^(−2πd/h + d²/2σ²)`.
+/// That is 1e-14 at most with the step of 0.27, and 0.45 σ for the narrow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogNormal {
     compliance: f64,
@@ -221,8 +217,7 @@ pub struct List {
 }
 
 impl List {
-    /// A list of one or more elements. They are sorted by time, and those of the same time become
-    /// one.
+    /// A list of one or more elements. They are sorted by time, and those of the same time become one.
     ///
     /// # Errors
     ///

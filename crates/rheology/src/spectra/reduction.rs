@@ -74,12 +74,11 @@ pub enum ReductionError {
 /// Finds the fewest elements whose creep `R_n` keeps `|R_n(t)/R(t) − 1| ≤ error` for all `t` in
 /// `range` \[s\], and the best sum of so many.
 ///
-/// The error reached is a bound over the whole range, not a maximum over samples. For rising n, the
-/// maximum is made as small as n elements can: the deviation then alternates 2n + 1 times at one
-/// level. The functions `1 − e^(−t/λ)` are a Chebyshev system on t > 0, so that two different sums of
-/// n elements agree at 2n − 1 times at most. A sum with a smaller deviation than another at all of its
-/// 2n + 1 alternations would agree with it 2n times; so none has, and n elements are proved not to
-/// suffice where the least of the alternations is above the error asked for.
+/// The error reached is a bound over the whole range, not a maximum over samples. For rising n, the maximum is made as
+/// small as n elements can: the deviation then alternates 2n + 1 times at one level. The functions `1 − e^(−t/λ)` are a
+/// Chebyshev system on t > 0, so that two different sums of n elements agree at 2n − 1 times at most. A sum with a
+/// smaller deviation than another at all of its 2n + 1 alternations would agree with it 2n times; so none has, and n
+/// elements are proved not to suffice where the least of the alternations is above the error asked for.
 ///
 /// # Errors
 ///

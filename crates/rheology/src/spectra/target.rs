@@ -18,12 +18,11 @@ const LOOKS: usize = 1100;
 
 /// Creep of a spectrum over a range of time, divided by the total compliance.
 ///
-/// `ln t` is cut into panels with the Chebyshev nodes of a polynomial of degree 14 each. For every
-/// positive spectrum and `|θ| < π/2`, `|R(t e^(iθ))| ≥ cos θ R(t)` because R rises and is concave, and
-/// `|R(t e^(iθ))| ≤ 2.4 R(t)` because `|1 − e^(−z)| ≤ min(|z|, 2)`. Hence a ratio of two creep
-/// functions is analytic in the strip `|Im ln t| < π/2` and bounded there, whatever the spectra: in
-/// the ellipse around a panel whose axes add to 12 half widths, by 30 times its value in the panel.
-/// So it is a polynomial of degree 14 but for `30 · 4 · 12^(−14) / 11`, about 1e-14.
+/// `ln t` is cut into panels with the Chebyshev nodes of a polynomial of degree 14 each. For every positive spectrum
+/// and `|θ| < π/2`, `|R(t e^(iθ))| ≥ cos θ R(t)` because R rises and is concave, and `|R(t e^(iθ))| ≤ 2.4 R(t)` because
+/// `|1 − e^(−z)| ≤ min(|z|, 2)`. Hence a ratio of two creep functions is analytic in the strip `|Im ln t| < π/2` and
+/// bounded there, whatever the spectra: in the ellipse around a panel whose axes add to 12 half widths, by 30 times its
+/// value in the panel. So it is a polynomial of degree 14 but for `30 · 4 · 12^(−14) / 11`, about 1e-14.
 #[derive(Debug)]
 pub(super) struct Target<'a> {
     spectrum: &'a dyn Spectrum,
@@ -100,8 +99,7 @@ impl<'a> Target<'a> {
         self.start + self.half * (2.0 * panel as f64 + 1.0 + node)
     }
 
-    /// An upper bound of `|sum/R − 1|` over the whole range, at most 2e-4 of itself (and 1e-13)
-    /// above the maximum.
+    /// An upper bound of `|sum/R − 1|` over the whole range, at most 2e-4 of itself (and 1e-13) above the maximum.
     ///
     /// A polynomial of degree `d` is nowhere greater than `1/cos(π d/2N)` times its greatest value at
     /// `N` Chebyshev nodes.

@@ -142,7 +142,7 @@ impl fmt::Display for Remark {
             ),
             Self::WeightLeftOut { energy, part } => write!(
                 f,
-                "gravity is off: if the blow goes down, its weight adds up to {} over the thickness, {} \
+                "gravity is off: if it moves downwards, its weight does work of {} over the thickness, {} \
                  the energy; `gravity = {{}}` under [effects] counts it",
                 format_short(*energy, Dimension::ENERGY, 3),
                 match *part {

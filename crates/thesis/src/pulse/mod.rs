@@ -83,8 +83,7 @@ const PANELS: f64 = 4.0;
 const LAST: f64 = 40.0;
 
 impl Pulse {
-    /// The pulse that chapter III takes from the analogue computer, P = 9.9 and m = 3.1, on the
-    /// padding of chapter IV.
+    /// The pulse that chapter III takes from the analogue computer, P = 9.9 and m = 3.1, on the padding of chapter IV.
     pub const PRINTED: Self = Self { padding: Groups::PRINTED, slope: 9.9, decay: 3.1 };
 
     /// Force φ at τ ≥ 0.
@@ -148,8 +147,7 @@ impl Pulse {
 
     /// The times τ > 0 at which ξ′ is zero: none, one or two, in order.
     ///
-    /// `ξ′ e^(ντ)` begins at 1 and turns once at most, at −σ/ρ, so each of its two ways has one root or
-    /// none.
+    /// `ξ′ e^(ντ)` begins at 1 and turns once at most, at −σ/ρ, so each of its two ways has one root or none.
     pub fn turning_times(&self) -> Vec<f64> {
         let (rho, sigma) = self.rho_sigma();
         let end = LAST / self.nu().min(self.decay);

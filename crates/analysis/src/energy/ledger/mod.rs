@@ -128,8 +128,7 @@ fn at_impacts(solution: &Solution<'_>, window: (f64, f64)) -> (f64, f64) {
     })
 }
 
-/// The energy balance of `solution` until `time` \[s\], by quadrature that is exact for its
-/// polynomials.
+/// The energy balance of `solution` until `time` \[s\], by quadrature that is exact for its polynomials.
 ///
 /// Dashpots dissipate `∫ F ẏ dt`; springs store the energy of their deformation. Where a load or a
 /// prescribed motion jumps, the work done is the jump of the stored energy.

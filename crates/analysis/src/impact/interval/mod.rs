@@ -29,11 +29,10 @@ pub enum Contact {
 /// later; a force that decays towards zero from above has none. A touch that stays below a thousandth
 /// of the largest force of the run, and after which the force rests on zero again, is none.
 ///
-/// A padding whose face has mass and can part is struck through its face: its impact begins with the
-/// first impulse or push on the face, and ends when what struck it has left it for good or the padding
-/// is unloaded. Bounces of the face on what strikes it belong to it as long as the padding stays
-/// pressed between them: its force does not fall to what it bore before, or to a hundredth of the most
-/// that it has borne since.
+/// A padding whose face has mass and can part is struck through its face: its impact begins with the first impulse or
+/// push on the face, and ends when what struck it has left it for good or the padding is unloaded. Bounces of the face
+/// on what strikes it belong to it as long as the padding stays pressed between them: its force does not fall to what
+/// it bore before, or to a hundredth of the most that it has borne since.
 ///
 /// Layers with mass that are struck directly let go of a body for moments in the ripples of their segments: those belong to
 /// the impact.
@@ -276,8 +275,7 @@ const SMALLEST_JUMP: f64 = 1e-9;
 /// The doubt of a force that by its law never pulls: no fall below zero counts.
 pub(crate) const NO_PULL: f64 = 1.0;
 
-/// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that
-/// is not slight.
+/// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that is not slight.
 pub(crate) fn first_way(force: &Signal) -> Option<bool> {
     let floor = (SLIGHT * force.bound()).max(force.noise);
     let first = force.value(0.0);

@@ -50,9 +50,8 @@ impl Oscillator {
         })
     }
 
-    /// The deformation \[m\] while the body has this acceleration \[m/s²\] and these jumps of speed
-    /// (time and size), from the window's start to its end. `None` where the model is so stiff that
-    /// the window is too long for it.
+    /// The deformation \[m\] while the body has this acceleration \[m/s²\] and these jumps of speed (time and size),
+    /// from the window's start to its end. `None` where the model is so stiff that the window is too long for it.
     pub(super) fn deformation(
         &self,
         acceleration: &Signal,
@@ -89,8 +88,7 @@ impl Oscillator {
         let magnitude = panels.iter().map(|panel| chebyshev::bound(&panel.coefficients));
         let magnitude = magnitude.fold(0.0, f64::max);
         let noise = f64::EPSILON * (16.0 + stretches) * magnitude;
-        // A passive model slows the mass down, so that an error ε of the acceleration can make a
-        // speed of ε t at most.
+        // A passive model slows the mass down, so that an error ε of the acceleration can make a speed of ε t at most.
         let error = acceleration.error.map(|error| 0.5 * error * (to - from).powi(2) + noise);
         Some(Signal::new(panels, error, noise))
     }

@@ -29,8 +29,7 @@ impl Optimum {
     }
 }
 
-/// Finds the largest head injury criterion of a signal over all intervals in the window that are
-/// no longer than `cap`.
+/// Finds the largest head injury criterion of a signal over all intervals in the window that are no longer than `cap`.
 ///
 /// The signal of one axis counts with its sign, as SAE J885 and ISO 6487 have it of a channel: a swing back takes from the
 /// area. It is looked at in both senses.

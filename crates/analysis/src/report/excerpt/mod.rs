@@ -20,9 +20,8 @@ const SHORT: f64 = 0.125;
 const SHARE: f64 = 0.5;
 const LEAST: usize = 10;
 
-/// The spans \[s\] in which any contact is closed, in order of time and apart from each other; masses
-/// that meet and part at once touch for no time. What never pulls is closed while it pushes. Empty where
-/// nothing can let go.
+/// The spans \[s\] in which any contact is closed, in order of time and apart from each other; masses that meet and
+/// part at once touch for no time. What never pulls is closed while it pushes. Empty where nothing can let go.
 pub fn touching(solution: &Solution<'_>) -> Vec<(f64, f64)> {
     let Some(switching) = &solution.assembly().switching else { return Vec::new() };
     let assembly = solution.assembly();

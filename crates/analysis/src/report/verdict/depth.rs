@@ -28,7 +28,6 @@ pub struct Layer<'r> {
 }
 
 impl<'r> Depth<'r> {
-    /// The element.
     pub(super) fn element(self) -> &'r str {
         match self.peak {
             Peak::Finite { measure, .. } | Peak::Infinite { measure, .. } => &measure.target,

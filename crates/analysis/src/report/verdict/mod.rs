@@ -204,7 +204,6 @@ impl<'r> Verdict<'r> {
     }
 }
 
-/// What is found in a run.
 #[derive(Clone, Copy)]
 struct Found<'r>(&'r RunReport);
 
@@ -239,8 +238,7 @@ impl<'r> Found<'r> {
         &self.0.assembly.connections
     }
 
-    /// In the window of the largest force: at the contact of the padding, or where it has none on what
-    /// lies behind.
+    /// In the window of the largest force: at the contact of the padding, or where it has none on what lies behind.
     fn whole_force(self) -> Option<WholeForce<'r>> {
         if self.0.largest_struck().is_some() {
             return None;

@@ -10,10 +10,11 @@ use crate::{
     rheometer::{
         Computation, FROM_THE_MODEL, Note, ProtocolKind, RheometerError, RheometerReport, Setting,
         Specimen, Tested,
+        answer::Drive,
         cycle::{Cycle, Loop, Simulated},
         history::{self, History, Instant},
         report::series,
-        simulation::{Control, NAME, Rig, TOLERANCES},
+        simulation::{NAME, Rig, TOLERANCES},
         solved::solve,
     },
 };
@@ -48,8 +49,7 @@ parameters! {
             default FROM_THE_MODEL, range NotZero;
         /// force at which the motion turns [N], positive; else it turns at the deformation
         pub force: Option<f64> = Quantity(Dimension::FORCE), default FROM_THE_MODEL, range Positive;
-        /// deformation rate [m/s], positive; else the deformation within the slowest time of the model, or
-        /// within 1 s
+        /// deformation rate [m/s], positive; else the deformation within the slowest time of the model, or within 1 s
         pub rate: Option<f64> = Quantity(Dimension::VELOCITY),
             default FROM_THE_MODEL, range Positive;
         /// deformation rate of the way back [m/s], positive; else that of the way out
@@ -128,7 +128,7 @@ impl LoadUnload {
         let history = cycle.history();
         let instants = cycle.instants(self.points);
         let times: Vec<f64> = instants.iter().map(|instant| instant.time).collect();
-        let rig = Rig::new(specimen.model(), Control::Deformation, &history);
+        let rig = Rig::new(specimen.model(), Drive::Deformation, &history);
         let simulate = |choice: &Choice| Simulated::new(&rig, choice, cycle, &instants);
         let simulated: Vec<Simulated> = methods.iter().map(simulate).collect();
         let closed = specimen.maxwell().map(|form| Loop::in_closed_form(form, cycle));
@@ -184,7 +184,7 @@ fn reached(
         }
         return Ok(monotone_root(lacks, 0.0, end));
     }
-    let rig = Rig::new(specimen.model(), Control::Deformation, &history);
+    let rig = Rig::new(specimen.model(), Drive::Deformation, &history);
     let direction = if rate > 0.0 { Direction::Rising } else { Direction::Falling };
     let stop = Stop { output: format!("{NAME}.force"), level, direction };
     let choice = methods.first().cloned().unwrap_or_default();

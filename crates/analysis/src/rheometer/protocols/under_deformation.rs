@@ -9,8 +9,8 @@ use crate::{
     Choice,
     rheometer::{
         FROM_THE_MODEL, Note, ProtocolKind, RheometerError, Specimen, Tested,
+        answer::Drive,
         history::{History, Instant},
-        simulation::Control,
         trial::Trial,
     },
 };
@@ -31,8 +31,7 @@ parameters! {
         /// a model that a dashpot keeps from deforming at once
         pub rise: Option<f64> = Quantity(Dimension::TIME),
             default FROM_THE_MODEL, range NonNegative;
-        /// End of the test \[s\], after the rise; `None` for 10 times the slowest time of the model
-        /// after it.
+        /// End of the test \[s\], after the rise; `None` for 10 times the slowest time of the model after it.
         pub end: Option<f64> => END;
         /// About how many instants are looked at, 2 or more.
         pub points: usize => POINTS;
@@ -54,7 +53,7 @@ impl ProtocolKind for Relaxation {
         }
         let end = end_of_test(self.end, rise.value, specimen)?;
         let history = History::step(height.value, rise.value, end.value);
-        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods);
+        let trial = Trial::new(specimen, Drive::Deformation, history, self.points, methods);
         let looks = [
             ("force just after the step", Instant::after(rise.value)),
             ("force at the end", Instant::before(end.value)),
@@ -98,7 +97,7 @@ impl ProtocolKind for ConstantRate {
         let end = end_of_test(self.end, 0.0, specimen)?;
         let rate = setting("rate", "m/s", self.rate, USUAL_DEFORMATION / end.value);
         let history = History::ramp(rate.value, end.value);
-        let trial = Trial::new(specimen, Control::Deformation, history, self.points, methods);
+        let trial = Trial::new(specimen, Drive::Deformation, history, self.points, methods);
         let looks = [
             ("force just after the start", Instant::after(0.0)),
             ("force at the end", Instant::before(end.value)),

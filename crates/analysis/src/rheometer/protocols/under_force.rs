@@ -10,8 +10,8 @@ use crate::{
     Choice,
     rheometer::{
         Figure, ProtocolKind, RheometerReport, Specimen, Tested,
+        answer::Drive,
         history::{History, Instant},
-        simulation::Control,
         trial::Trial,
     },
 };
@@ -36,7 +36,7 @@ impl ProtocolKind for Creep {
         let force = setting("force", "N", self.force, USUAL_FORCE);
         let end = end_of_test(self.end, 0.0, specimen)?;
         let history = History::step(force.value, 0.0, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
+        let trial = Trial::new(specimen, Drive::Force, history, self.points, methods);
         let looks = [
             ("deformation at once", Instant::after(0.0)),
             ("deformation at the end", Instant::before(end.value)),
@@ -62,8 +62,7 @@ parameters! {
         pub force: Option<f64> => FORCE;
         /// How long it is held \[s\], positive; `None` for 5 times the slowest retardation time.
         pub hold: Option<f64> => HOLD;
-        /// End of the test \[s\], after the hold; `None` for 10 times the slowest time of the model
-        /// after it.
+        /// End of the test \[s\], after the hold; `None` for 10 times the slowest time of the model after it.
         pub end: Option<f64> => END;
         /// About how many instants are looked at, 2 or more.
         pub points: usize => POINTS;
@@ -78,7 +77,7 @@ impl ProtocolKind for CreepRecovery {
         let hold = setting("hold", "s", self.hold, HELD * specimen.slowest_retardation());
         let end = end_of_test(self.end, hold.value, specimen)?;
         let history = History::pulse(force.value, 0.0, hold.value, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
+        let trial = Trial::new(specimen, Drive::Force, history, self.points, methods);
         let looks = [
             ("deformation at the end of the hold", Instant::before(hold.value)),
             ("deformation just after", Instant::after(hold.value)),
@@ -91,8 +90,7 @@ impl ProtocolKind for CreepRecovery {
 }
 
 parameters! {
-    /// A force that is put on, held and taken away, with the parts of the deformation apart (figure 2
-    /// of the thesis).
+    /// A force that is put on, held and taken away, with the parts of the deformation apart (figure 2 of the thesis).
     ///
     /// The parts are those of the model's Kelvin form, whatever form it was given in:
     ///
@@ -112,11 +110,9 @@ parameters! {
         pub force: Option<f64> => FORCE;
         /// how long loading and unloading take [s], zero or positive
         pub rise: f64 = Quantity(Dimension::TIME), default "0 s", range NonNegative;
-        /// How long it is held in between \[s\], positive; `None` for 5 times the slowest retardation
-        /// time.
+        /// How long it is held in between \[s\], positive; `None` for 5 times the slowest retardation time.
         pub hold: Option<f64> => HOLD;
-        /// End of the test \[s\], after unloading; `None` for 10 times the slowest time of the model
-        /// after it.
+        /// End of the test \[s\], after unloading; `None` for 10 times the slowest time of the model after it.
         pub end: Option<f64> => END;
         /// About how many instants are looked at, 2 or more.
         pub points: usize => POINTS;
@@ -134,7 +130,7 @@ impl ProtocolKind for LoadHoldUnload {
         let unloaded = if rise.value > 0.0 { held + rise.value } else { held };
         let end = end_of_test(self.end, unloaded, specimen)?;
         let history = History::pulse(force.value, rise.value, hold.value, end.value);
-        let trial = Trial::new(specimen, Control::Force, history, self.points, methods);
+        let trial = Trial::new(specimen, Drive::Force, history, self.points, methods);
         let settings = vec![force, rise, hold, end, points_used(self.points)];
         let [held, unloaded, end] =
             [Instant::before(held), Instant::after(unloaded), Instant::before(end.value)];

@@ -134,8 +134,7 @@ impl FourParameterGroups {
         Ok(self)
     }
 
-    /// Whether there is an impact with these groups: each has its range, and together they leave a
-    /// padding.
+    /// Whether there is an impact with these groups: each has its range, and together they leave a padding.
     ///
     /// # Errors
     ///

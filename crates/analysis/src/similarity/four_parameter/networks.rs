@@ -124,8 +124,7 @@ fn redrawn(model: &Model, own: &FourParameterPadding) -> Model {
     both.0
 }
 
-/// K₁, C₁, K₂ and C₂ of a linear model that is a spring, a dashpot and a Kelvin–Voigt element in a
-/// row from outside.
+/// K₁, C₁, K₂ and C₂ of a linear model that is a spring, a dashpot and a Kelvin–Voigt element in a row from outside.
 pub(super) fn constants(model: &Model) -> Option<[f64; 4]> {
     if first_nonlinear(model).is_some() {
         return None;

@@ -14,9 +14,8 @@ use super::{
     names::{connect_as, gravity, retargeted, speed_of_fall, with_names},
 };
 
-/// The network with the effects of another that it has not, with nothing in them: no gravity is
-/// gravity of 0, and no mass on a face one of 0. The same network where both have not as many nodes
-/// and elements.
+/// The network with the effects of another that it has not, with nothing in them: no gravity is gravity of 0, and no
+/// mass on a face one of 0. The same network where both have not as many nodes and elements.
 pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, InvalidParameter> {
     let counts = |network: &Network| (network.nodes().count(), network.connections().len());
     if counts(network) != counts(like) {

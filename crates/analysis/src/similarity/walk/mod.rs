@@ -44,18 +44,14 @@ pub(super) trait Visit {
     /// What is no number: kinds, words, and what is joined to what.
     fn word(&mut self, _name: &str, _word: &str) {}
 
-    /// A size that acts only in products with others, which are told; what is returned stands in its
-    /// place.
+    /// A size that acts only in products with others, which are told; what is returned stands in its place.
     fn size(&mut self, _dimension: Dimension, value: f64) -> f64 {
         value
     }
 }
 
 /// Shows all parameters to `visit`, and makes the network of what it returns.
-///
-/// # Errors
-///
-/// The first value that is out of range.
+/// Errors: the first value that is out of range.
 pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, InvalidParameter> {
     let mut again = Network::new();
     for (id, node) in network.nodes() {

@@ -69,7 +69,7 @@ pub(crate) type UndecidedReleases = Vec<(ForceOf, f64)>;
 
 /// What a solution leaves open that `others`, which are coarser, do not agree on with it, where pulls below
 /// the part `threshold` of the largest force may be errors of it; without others, where it pulls by less.
-pub(crate) fn undecided_releases<'a>(
+fn undecided_releases<'a>(
     finest: &Solution<'a>,
     make_others: &dyn Fn() -> Vec<Solution<'a>>,
     threshold: f64,
@@ -91,6 +91,51 @@ pub(crate) fn undecided_releases<'a>(
         Some((force_of, earliest_end(&forces, window, level)?))
     };
     finest.contacts_felt().filter_map(undecided).collect()
+}
+
+/// The same without what lets go for a moment in the ripples of segments of layers: that ends no impact, and what it may
+/// hide is for [`releases_in_ripples`].
+pub(crate) fn undecided_ends<'a>(
+    finest: &Solution<'a>,
+    make_others: &dyn Fn() -> Vec<Solution<'a>>,
+    threshold: f64,
+) -> UndecidedReleases {
+    let mut all = undecided_releases(finest, make_others, threshold);
+    all.retain(|own| finest.passage(own.0) <= 0.0);
+    all
+}
+
+/// Parts of the height of ripples from which on the way of a force to zero is looked at.
+const DESCENT: f64 = 4.0;
+
+/// When impacts may end whose forces are known up to ripples of this `height`, in parts of the largest force: where a force
+/// comes within them before and the `others` do not agree that it pushes on, else before it is zero by what they are worth
+/// on its last way there, from [`DESCENT`] heights on.
+pub(crate) fn releases_in_ripples<'a>(
+    finest: &Solution<'a>,
+    make_others: &dyn Fn() -> Vec<Solution<'a>>,
+    height: f64,
+) -> UndecidedReleases {
+    let earlier = undecided_releases(finest, make_others, height);
+    // From when on it only falls, and when it may be zero then.
+    let descent = |force_of: ForceOf| {
+        let impact = finest.impact_felt(force_of);
+        let window = impact.pushing().filter(|_| impact.has_ended())?;
+        let force = finest.contact_force(force_of)?;
+        let falls = force.crossings(DESCENT * height * force.bound(), window);
+        let last = falls.iter().rfind(|own| own.rising == Some(false))?.time;
+        Some((last, window.1 - (window.1 - last) / (DESCENT - 1.0)))
+    };
+    let release = |force_of: ForceOf| {
+        let earlier = earlier.iter().find(|own| own.0 == force_of).map(|own| own.1);
+        let time = match (earlier, descent(force_of)) {
+            (Some(earlier), Some((last, _))) if earlier < last => earlier,
+            (_, Some((_, time))) => time,
+            (earlier, None) => earlier?,
+        };
+        Some((force_of, time))
+    };
+    finest.contacts_felt().filter_map(release).collect()
 }
 
 impl Solution<'_> {

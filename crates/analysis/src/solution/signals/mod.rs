@@ -56,8 +56,7 @@ impl Solution<'_> {
         self.known.signals.panels.get()
     }
 
-    /// An output as a function of time; one that was not [kept](Self::keeps) is not a number
-    /// throughout.
+    /// An output as a function of time; one that was not [kept](Self::keeps) is not a number throughout.
     ///
     /// # Panics
     ///

@@ -42,7 +42,6 @@ impl Slice for FaerVec<f64> {
 
 /// A matrix type and the direct solver that belongs to it.
 pub(in crate::methods) trait Algebra: Matrix<T = f64, V: Slice> {
-    /// Its factorisation.
     type Factor: LinearSolver<Self>;
 
     /// The stored values.

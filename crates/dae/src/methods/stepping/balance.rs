@@ -32,10 +32,9 @@ impl From<DiffsolError> for Imbalance {
 /// `0 = J y + B w + n(y, w)`, linearised, for the algebraic ones: the identity in the rows of the
 /// former, `J` and the slopes of the terms in those of the latter.
 ///
-/// One linear solve gives consistent values, or a few where there are terms; another, of the
-/// differentiated rows, gives the slopes of the algebraic unknowns. The integrators' own start would
-/// iterate on the whole system and leave these slopes at zero, which spoils the first step's dense
-/// output.
+/// One linear solve gives consistent values, or a few where there are terms; another, of the differentiated rows, gives
+/// the slopes of the algebraic unknowns. The integrators' own start would iterate on the whole system and leave these
+/// slopes at zero, which spoils the first step's dense output.
 pub(super) struct Balance<M: Algebra> {
     factor: M::Factor,
     algebraic: Vec<usize>,
@@ -86,8 +85,7 @@ impl<M: Algebra> NonLinearOpJacobian for Stored<M> {
 }
 
 impl<M: Algebra> Balance<M> {
-    /// The balances of `system`, factorised if they are linear; `None` where it has no algebraic
-    /// unknown.
+    /// The balances of `system`, factorised if they are linear; `None` where it has no algebraic unknown.
     ///
     /// The block of the algebraic unknowns must have a structural rank of its own, see
     /// [`undetermined`].
@@ -212,8 +210,7 @@ impl<M: Algebra> Balance<M> {
         kept
     }
 
-    /// Solves the linearised balances in which `driven` does not depend on the unknowns that
-    /// `numbers` are of.
+    /// Solves the linearised balances in which `driven` does not depend on the unknowns that `numbers` are of.
     pub(super) fn solve(
         &mut self,
         equations: &Equations<'_, M>,
@@ -256,8 +253,7 @@ fn algebraic(system: &System) -> impl Iterator<Item = usize> {
 
 /// An algebraic unknown that no balance can be assigned to, whatever the values of the matrix.
 ///
-/// The sparse factorisation cannot be asked for a matrix of deficient structure, so that this has to
-/// be found before.
+/// The sparse factorisation cannot be asked for a matrix of deficient structure, so that this has to be found before.
 pub(super) fn undetermined(system: &System) -> Option<usize> {
     if system.algebraic() == 0 {
         return None;

@@ -206,7 +206,6 @@ impl<'s, M: Algebra> Equations<'s, M> {
         (self.calls.get(), self.jacobians.get())
     }
 
-    /// The system behind the equations.
     pub(super) fn system(&self) -> &'s System {
         self.system
     }

@@ -1,9 +1,8 @@
 //! The step-by-step methods: one adapter to the integrators of `diffsol`, shared by all of them.
 //!
-//! What each smooth span of a run needs is prepared here: consistent values and slopes, the first
-//! step, limits relative to the span. Between two breakpoints of the driving functions an integrator
-//! runs freely; each of its steps is kept as a polynomial. No type of `diffsol` leaves this module
-//! and the methods' own files.
+//! What each smooth span of a run needs is prepared here: consistent values and slopes, the first step, limits relative
+//! to the span. Between two breakpoints of the driving functions an integrator runs freely; each of its steps is kept
+//! as a polynomial. No type of `diffsol` leaves this module and the methods' own files.
 //!
 //! # Error control
 //!
@@ -53,6 +52,8 @@ use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
 
 /// Most unknowns of a system that is solved by an explicit method.
 pub(super) const MOST_EXPLICIT: usize = 100;
+/// The same where it is linear and has no balances: a slope costs no more than the entries of its matrix.
+pub(super) const MOST_LINEAR: usize = 500;
 
 /// What tells one step-by-step method from another; all else of [`Method`] is the same for all.
 pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
@@ -60,7 +61,6 @@ pub(super) trait Scheme: Debug + Default + Send + Sync + 'static {
     const KIND: &'static str;
     /// What it is good for, in one line.
     const SUMMARY: &'static str;
-    /// What integrates.
     const INTEGRATOR: Integrator;
     /// Its highest order.
     const HIGHEST: u8;
@@ -178,8 +178,7 @@ pub(super) enum Stop {
     Guard,
     /// The integrator failed, before it could be asked where.
     Integrator(DiffsolError),
-    /// The integrator takes no further step from this time in the span, where the unknowns are the
-    /// walk's.
+    /// The integrator takes no further step from this time in the span, where the unknowns are the walk's.
     Stuck {
         /// The time, dimensionless and from the start of the span.
         at: f64,

@@ -16,9 +16,8 @@ pub(super) struct Order {
 /// The order of `size` unknowns in which the entries `(row, column)` of a matrix come to lie close to
 /// the diagonal; `None` if the search finds none in which no entry is farther away than `most`.
 ///
-/// It goes from an unknown at the rim outwards, neighbours with few neighbours of their own first
-/// (`cuthill1969` in `docs/references.bib`). For paths this is the narrowest band, for most graphs a
-/// narrow one.
+/// It goes from an unknown at the rim outwards, neighbours with few neighbours of their own first (`cuthill1969` in
+/// `docs/references.bib`). For paths this is the narrowest band, for most graphs a narrow one.
 pub(super) fn narrow(
     size: usize,
     entries: impl Iterator<Item = (usize, usize)> + Clone,

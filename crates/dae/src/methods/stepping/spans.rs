@@ -135,8 +135,7 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
 }
 
 impl Walk<'_> {
-    /// The borders of the spans of a method that estimates its first step from this order,
-    /// dimensionless.
+    /// The borders of the spans of a method that estimates its first step from this order, dimensionless.
     ///
     /// A one-step method judges its steps by the differential unknowns. What follows a driving
     /// function through a law that is not linear may need shorter ones than these, so that the spans

@@ -20,9 +20,8 @@ pub(in crate::methods) type Problem<'s, M> = OdeSolverProblem<Equations<'s, M>>;
 /// long, and a first step far too large: the step size is what ends hopeless runs.
 const PATIENCE: usize = 10_000;
 
-/// Smallest step in parts of the span. Time is counted from the span's start, so that first steps
-/// far below the resolution of absolute time are meaningful; later, a step that the time in the span
-/// cannot resolve ends the run.
+/// Smallest step in parts of the span. Time is counted from the span's start, so that first steps far below the
+/// resolution of absolute time are meaningful; later, a step that the time in the span cannot resolve ends the run.
 const SMALLEST_STEP: f64 = 1e-30;
 /// The same in parts of the shortest time in the equations, where that is shorter still.
 const SMALLEST_SHARE: f64 = 1e-8;
@@ -35,8 +34,7 @@ const OF_SWING: f64 = 1.0 / 32.0;
 /// The tolerance down to which it is that.
 const COARSE: f64 = 1e-4;
 
-/// The first step that is guessed where nothing moves yet, and the tolerance for which it is taken as it
-/// is.
+/// The first step that is guessed where nothing moves yet, and the tolerance for which it is taken as it is.
 const GUESS: (f64, f64) = (1e-4, 1e-12);
 
 /// Part of the tolerance below which the estimate of the first step takes unknowns and slopes as none.
@@ -86,8 +84,7 @@ fn tolerance(rtol: f64, size: usize) -> f64 {
     (rtol * share.sqrt()).max(TIGHTEST.min(rtol))
 }
 
-/// Enters a span of the given start and length and returns the consistent state there; `state`
-/// receives its values.
+/// Enters a span of the given start and length and returns the consistent state there; `state` receives its values.
 pub(super) fn enter<M: Algebra>(
     problem: &mut Problem<'_, M>,
     mut balance: Option<&mut Balance<M>>,
@@ -128,8 +125,7 @@ pub(super) fn enter<M: Algebra>(
     let StateCommon { y, dy, g, dg, s, ds, sg, dsg, t, h } = &mut common;
     let mut view = StateRefMut { y, dy, g, dg, s, ds, sg, dsg, t, h };
     view.set_step_size(problem.h0, &problem.atol, problem.rtol, &problem.eqn, order);
-    // What is small beside its slope limits the estimate by the time in which it would double, at whatever
-    // tolerance.
+    // What is small beside its slope limits the estimate by the time in which it would double, at whatever tolerance.
     let size = |own: &M::V| own.squared_norm(view.y, &problem.atol, problem.rtol).sqrt();
     let (own, slope) = (size(view.y), size(view.dy));
     if own.min(slope) >= LEAST {

@@ -21,7 +21,6 @@ impl Drive {
         Self { piece: *system.waveforms[waveform].piece_at(start), derivative, input }
     }
 
-    /// The input.
     pub(super) fn input(&self) -> usize {
         self.input
     }

@@ -25,8 +25,7 @@ pub(super) struct FirstPhases<'n> {
 }
 
 impl<'n> FirstPhases<'n> {
-    /// `None` where more acts on it than constant forces, or something switches but contacts that are closed
-    /// at first.
+    /// `None` where more acts on it than constant forces, or something switches but contacts that are closed at first.
     pub(super) fn of(network: &'n Network) -> Option<Self> {
         if !network.loads.is_empty() {
             return None;
@@ -75,7 +74,6 @@ impl<'n> FirstPhases<'n> {
         })
     }
 
-    /// The law of a primitive.
     pub(super) fn law(&self, primitive: usize) -> Option<Law> {
         let own = &self.expansion.primitives[primitive];
         (own.push == 0.0 && own.share.is_none() && own.held == 0.0).then_some(own.law)

@@ -45,7 +45,6 @@ struct Part {
     deformation: Vec<(usize, f64)>,
 }
 
-/// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum PartKind {
     Spring,

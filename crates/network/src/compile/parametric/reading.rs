@@ -3,8 +3,7 @@
 use super::{Eliminated, Part};
 use crate::compile::{expand::Shape, row::Combination, unknowns::Places};
 
-/// The difference of the places of two bodies over the unknowns; `None` where it is not one of whole
-/// positions.
+/// The difference of the places of two bodies over the unknowns; `None` where it is not one of whole positions.
 pub(super) fn difference(places: &Places, [a, b]: [usize; 2]) -> Option<Vec<(usize, f64)>> {
     let row = places.position.row(a).plus(-1.0, &places.position.row(b));
     if !row.inputs.is_zero() {

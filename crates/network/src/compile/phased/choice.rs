@@ -94,8 +94,7 @@ impl PhasedNetwork {
     /// that is not zero. Parts that do not act on each other at this instant are looked for apart;
     /// each [group](super::groups::Group) has an order of its own in which it goes through its
     /// [combinations](Search::advance), and through the ways of judging. What is accepted is judged
-    /// as a whole. Phases in which some parts stay only as far as can be told are taken where there
-    /// are no others.
+    /// as a whole. Phases in which some parts stay only as far as can be told are taken where there are no others.
     pub(super) fn choose(
         &self,
         state: &mut State,
@@ -145,8 +144,7 @@ impl PhasedNetwork {
                     continue;
                 }
                 if let Some((choice, switches, own)) = spare {
-                    // What only seems to stay, because where it goes there is no system, would be met
-                    // again and again.
+                    // What only seems to stay, because where it goes there is no system, would be met again and again.
                     if switches.is_empty() && instant.is_left && refusal.is_some() {
                         return Err(self.stuck(time, search, refusal));
                     }
@@ -270,8 +268,7 @@ impl PhasedNetwork {
         }
     }
 
-    /// The groups for whose phases there is no system, whatever the others do: all of them if it is
-    /// none alone.
+    /// The groups for whose phases there is no system, whatever the others do: all of them if it is none alone.
     fn refused(&self, searches: &[Search], phases: &[Phase]) -> Vec<usize> {
         let alone = |&at: &usize| {
             let mut tried = phases.to_vec();

@@ -85,9 +85,8 @@ pub(super) struct Admissibility {
     pub(super) graze: bool,
     /// Whether another phase is in reach.
     pub(super) may_change: bool,
-    /// Whether no impact changes its speed. Then what is at its level, by the event that ended the
-    /// interval, and leaves it inwards again by the speed with which it came, is there by the
-    /// method's error: that speed is none.
+    /// Whether no impact changes its speed. Then what is at its level, by the event that ended the interval, and leaves
+    /// it inwards again by the speed with which it came, is there by the method's error: that speed is none.
     pub(super) is_smooth: bool,
     /// How an impact in the part has let its sides part, if one has.
     pub(super) rebound_speed: Option<ReboundSpeed>,
@@ -95,8 +94,7 @@ pub(super) struct Admissibility {
 
 /// Derivatives that are looked at to see which way a quantity leaves its level.
 const ORDERS: usize = 6;
-/// What turns back before it is so far from its level is not seen to leave it, in parts of the
-/// threshold.
+/// What turns back before it is so far from its level is not seen to leave it, in parts of the threshold.
 const SEEN: f64 = 0.02;
 /// The same where it may be seen to be a force that something else leaves as it is.
 const TOLD: f64 = 1e-3;

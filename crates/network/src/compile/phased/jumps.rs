@@ -13,9 +13,8 @@ use crate::{
     phases::{Phase, PhaseLaw, Watched},
 };
 
-/// Refuses motions that jump where contacts jump with them: what a jump passes through cannot be
-/// told. Bodies with mass stay where they are at that instant, so that contacts beyond them do not
-/// notice.
+/// Refuses motions that jump where contacts jump with them: what a jump passes through cannot be told. Bodies with mass
+/// stay where they are at that instant, so that contacts beyond them do not notice.
 pub(super) fn through_contacts(
     network: &Network,
     expansion: &Expansion,

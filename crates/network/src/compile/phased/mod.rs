@@ -278,11 +278,9 @@ impl PhasedNetwork {
 
 /// Rounding of a state that is given, in parts of its terms.
 const GIVEN: f64 = 1e3 * f64::EPSILON;
-/// Most modes that are kept.
 const MOST_KEPT: usize = 4096;
 
-/// Whether a part begins to hold where its deformation reaches a level, and pushes without limit
-/// then.
+/// Whether a part begins to hold where its deformation reaches a level, and pushes without limit then.
 pub(super) fn is_contact(phases: &dyn Phases) -> bool {
     (0..phases.names().len()).any(|index| {
         let phase = Phase { index, memory: 0.0 };
@@ -291,8 +289,7 @@ pub(super) fn is_contact(phases: &dyn Phases) -> bool {
     })
 }
 
-/// The first phase of a part in which it holds nothing and can move at this rate \[m/s\], or is about
-/// to.
+/// The first phase of a part in which it holds nothing and can move at this rate \[m/s\], or is about to.
 fn moving(phases: &dyn Phases, phase: Phase, rate: f64) -> Option<usize> {
     (0..phases.names().len()).find(|&index| {
         let phase = Phase { index, ..phase };
@@ -317,8 +314,7 @@ impl Switching for PhasedNetwork {
             let mut state = self.start.clone();
             self.choose(&mut state, 0.0, &self.first, &[], threshold)
         };
-        // The start has no error of the method. What parts at once by an impact is followed as at any
-        // other instant.
+        // The start has no error of the method. What parts at once by an impact is followed as at any other instant.
         let (choice, switches) = match choose(threshold.min(GIVEN)) {
             Ok(known) if known.1.iter().all(|own| own.impulse == 0.0) => known,
             _ => choose(threshold)?,

@@ -9,9 +9,8 @@ use super::{
 };
 use crate::phases::{Exit, Watched};
 
-/// What comes back without having been farther from its level, in parts of its scale and of the root of
-/// the threshold, is not left to a method: that it follows places to its tolerance says little
-/// about when so low a rebound ends.
+/// What comes back without having been farther from its level, in parts of its scale and of the root of the threshold,
+/// is not left to a method: that it follows places to its tolerance says little about when so low a rebound ends.
 const LOW: f64 = 0.1;
 /// Shortest rebound in parts of the time of the run.
 const SHORT: f64 = 4.0 * f64::EPSILON;
@@ -43,8 +42,7 @@ impl Judge<'_> {
         mode.guards.iter().zip(levels).enumerate().map(predicted).collect()
     }
 
-    /// Whether a part whose sides an impact has parted stays in its phase, where it is told by when they
-    /// come back.
+    /// Whether a part whose sides an impact has parted stays in its phase, where it is told by when they come back.
     pub(super) fn stays_after_rebound(
         &self,
         part: usize,
@@ -64,8 +62,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether a part's sides have just parted, and come back from so near that they are followed without a
-    /// method.
+    /// Whether a part's sides have just parted, and come back from so near that they are followed without a method.
     pub(super) fn is_followed(&self, part: usize, height: f64, output: Output<'_>) -> bool {
         let Admissibility { threshold, rebound_speed, .. } = self.criteria[part];
         rebound_speed.is_some_and(|rebound_speed| rebound_speed != ReboundSpeed::Integrated)

@@ -7,8 +7,7 @@ use crate::phases::Phase;
 
 /// Combinations of one group up to which all are tried, nearest first.
 const FEW: usize = 64;
-/// Most combinations of a larger group that are tried one by one where following the faults has led
-/// nowhere.
+/// Most combinations of a larger group that are tried one by one where following the faults has led nowhere.
 const MOST_TRIED: usize = 1024;
 
 /// The search for the phases of one group.
@@ -17,7 +16,6 @@ pub(super) struct Search {
     pub(super) group: Group,
     /// By which of the ways of judging it is judged now.
     pub(super) way: usize,
-    /// What its impacts are by that.
     pub(super) impacts: Vec<Impact>,
     /// For each of its parts the phases in reach, the natural one first.
     options: Vec<Vec<Phase>>,

@@ -98,10 +98,7 @@ impl<'a> Settling<'a> {
 
     /// Where everything is after the jump. Masses have not moved and dashpots have not given way; springs
     /// are in balance, and contacts push or are open. `first` are the phases before.
-    ///
-    /// # Errors
-    ///
-    /// Where dashpots would have to give way, and where what happens in the jump cannot be told.
+    /// Errors: where dashpots would have to give way, and where what happens in the jump cannot be told.
     pub(super) fn settled(&self, first: &[Phase]) -> Result<Settled, NetworkErrors> {
         self.check_dashpots()?;
         let contacts: Vec<usize> =
@@ -212,8 +209,7 @@ impl<'a> Settling<'a> {
             let primitive = &self.expansion.primitives[at];
             let [a, b] = primitive.ends;
             let way = position[a] - position[b] - (self.before[a] - self.before[b]);
-            // Between what is given, the deformation is given, too, and places between sliders matter to
-            // nothing.
+            // Between what is given, the deformation is given, too, and places between sliders matter to nothing.
             let follows = self.is_light(a) || self.is_light(b);
             let is_slider = primitive.origin.phases().and_then(Phases::capacity).is_some();
             let matters = follows && (!is_slider || self.reaches_mass(a) || self.reaches_mass(b));

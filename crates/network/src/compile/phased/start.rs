@@ -27,12 +27,8 @@ pub(super) const THROUGH_CONTACT: &str = "it is beyond a contact there, or withi
                                           touch, or give what it meets a spring";
 
 /// The bodies of the network in its loosest state, in which no part that switches holds anything.
-///
-/// # Errors
-///
-/// What is undetermined where nothing touches, for instance a massless pad that can part on both
-/// sides. Sliders count as stuck there, since one that no force can move does not slide; but those
-/// that given motions move slide.
+/// Errors: what is undetermined where nothing touches, for instance a massless pad that can part on both sides. Sliders
+/// count as stuck there, since one that no force can move does not slide; but those that given motions move slide.
 pub(super) fn bodies_apart(
     network: &Network,
     expansion: &Expansion,
@@ -99,13 +95,9 @@ fn static_friction(
     if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
-/// Lets those sliders slide that would hold together what is given different motions, or what others
-/// hold together, the way that their rate goes at the start.
-///
-/// # Errors
-///
-/// [`NetworkError::UndeterminedForce`] where the motions at both ends begin alike: then a slider
-/// neither sticks nor slides, and its force follows from nothing.
+/// Lets those sliders slide that would hold together what is given different motions, or what others hold together, the
+/// way that their rate goes at the start. Errors: [`NetworkError::UndeterminedForce`] where the motions at both ends
+/// begin alike: then a slider neither sticks nor slides, and its force follows from nothing.
 fn slip(
     network: &Network,
     expansion: &Expansion,

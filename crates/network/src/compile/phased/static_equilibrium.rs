@@ -31,8 +31,7 @@ pub(super) struct Loads<'a> {
 }
 
 impl Loads<'_> {
-    /// Places of all joints in balance under the weight of what has no start speed; `unloaded` are
-    /// those before.
+    /// Places of all joints in balance under the weight of what has no start speed; `unloaded` are those before.
     ///
     /// Sliders stick as far as they can hold; those that cannot have slid and hold with all their strength,
     /// as if the weights had grown slowly. An impactor begins where what it strikes is undeformed, or so high
@@ -107,8 +106,7 @@ impl Loads<'_> {
         Ok((0..expansion.joints).map(place).collect())
     }
 
-    /// Puts those sliders in motion that cannot hold under these forces, and adds what they hold with to the
-    /// forces.
+    /// Puts those sliders in motion that cannot hold under these forces, and adds what they hold with to the forces.
     ///
     /// Which ones they are follows from the balance with a stiff spring of the slider's strength in place of
     /// each: its energy is convex, so that there is one. What strikes or is driven is left out.

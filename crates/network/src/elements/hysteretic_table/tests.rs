@@ -1,7 +1,10 @@
 use super::*;
-use crate::elements::hysteresis::{
-    LOADING, SLACK, UNLOADING,
-    tests::{never_gives_more_than_it_took, travelled},
+use crate::{
+    elements::hysteresis::{
+        LOADING, SLACK, UNLOADING,
+        tests::{never_gives_more_than_it_took, travelled},
+    },
+    phases::{Phase, PhaseLaw, Phases},
 };
 
 fn curve(of: &HystereticTable, deepest: f64) -> Arc<dyn Element> {

@@ -68,8 +68,7 @@ impl fmt::Display for Leak {
     }
 }
 
-/// Where most of the energy goes missing; `None` where none does, or where only a part of the
-/// solution was kept.
+/// Where most of the energy goes missing; `None` where none does, or where only a part of the solution was kept.
 ///
 /// Each slice of time is balanced for each part: for a mass the work of all forces on it against its
 /// kinetic energy, for an element the work done on its ends against what it stores and dissipates,
@@ -113,8 +112,7 @@ fn span(cell: usize, times: &[f64]) -> (f64, f64) {
     (at(cell.div_ceil(2)), at(cell / 2 + 1))
 }
 
-/// The first and the last one of the cells that hold the wanted part of the sum in the shortest
-/// time.
+/// The first and the last one of the cells that hold the wanted part of the sum in the shortest time.
 fn shortest_span(totals: &[f64], times: &[f64]) -> Option<(usize, usize)> {
     let wanted = MOST * totals.iter().sum::<f64>();
     if wanted.is_nan() || wanted <= 0.0 {

@@ -10,9 +10,8 @@ use super::elimination::{none, roles};
 
 pub(in crate::methods) use self::layout::Unfit;
 
-/// Part of the largest entry below from which on that on the diagonal is left to be the pivot, as in
-/// KLU (`davis2010` in `docs/references.bib`). Where no rows are exchanged the factors stay half as
-/// wide.
+/// Part of the largest entry below from which on that on the diagonal is left to be the pivot, as in KLU (`davis2010`
+/// in `docs/references.bib`). Where no rows are exchanged the factors stay half as wide.
 const GOOD_PIVOT: f64 = 1e-3;
 
 /// A matrix in an order that makes its band narrow, and its factors `P A = L U` with rows exchanged
@@ -113,10 +112,7 @@ impl Banded {
     }
 
     /// Factorises the matrix with these values of its entries.
-    ///
-    /// # Errors
-    ///
-    /// What is eliminated must not be with these values: only the [`whole`](Self::whole) can be factorised.
+    /// Errors: what is eliminated must not be with these values: only the [`whole`](Self::whole) can be factorised.
     pub(super) fn factorise(&mut self, values: &[f64]) -> Result<(), Unfit> {
         self.holds = None;
         self.couplings.take(&self.layout, values)?;

@@ -124,8 +124,7 @@ impl Factors {
     }
 }
 
-/// `value − Σ factor · last`, which becomes the last itself. The nearest is subtracted last, because
-/// it is known last.
+/// `value − Σ factor · last`, which becomes the last itself. The nearest is subtracted last, because it is known last.
 fn advance<const REACH: usize>(value: f64, factors: &[f64; REACH], last: &mut [f64; REACH]) -> f64 {
     let mut next = value;
     for at in (0..REACH).rev() {

@@ -31,11 +31,9 @@ const STRETCH: f64 = 0.01;
 const LONGEST: f64 = 3.0;
 /// See [`LONGEST`].
 const COARSE: f64 = 1e-4;
-/// Steps between two looks at the linearised equations: what is fast shows in steps only where it has not died
-/// away.
+/// Steps between two looks at the linearised equations: what is fast shows in steps only where it has not died away.
 const LOOKS: usize = 8;
-/// More such steps, at a coarse tolerance, are left to an implicit method, where they are asked for by what dies
-/// away …
+/// More such steps, at a coarse tolerance, are left to an implicit method, where they are asked for by what dies away …
 const PATIENCE: f64 = 100.0;
 /// … once so many of them have been taken: a mode interval may end long before the run does, and begun anew an
 /// implicit method takes as much.

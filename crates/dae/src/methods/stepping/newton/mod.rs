@@ -214,8 +214,7 @@ impl<M: Algebra> Search<'_, '_, M> {
         }
     }
 
-    /// Two places on the line, from `step` on ever farther away, between which the residual of `row`
-    /// changes sign.
+    /// Two places on the line, from `step` on ever farther away, between which the residual of `row` changes sign.
     fn bracket(
         &mut self,
         row: usize,

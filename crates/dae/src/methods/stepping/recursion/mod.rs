@@ -175,8 +175,7 @@ impl Spread {
     }
 }
 
-/// The scale of the rounding error of a piece's derivative at `t`: `Σ |terms|`, that of the phase
-/// included.
+/// The scale of the rounding error of a piece's derivative at `t`: `Σ |terms|`, that of the phase included.
 fn magnitude(piece: &Piece, order: u32, t: f64) -> f64 {
     let s = t - piece.start;
     let powers = [piece.value, piece.slope, piece.curvature, piece.jerk];
