@@ -388,6 +388,7 @@ fn records() -> Vec<Record> {
 }
 
 /// Bars are those of one case in twenty. Of so many repeats no measure may be outside more often than that and chance.
+#[expect(clippy::print_stdout, reason = "the log of the campaign")]
 fn bars_hold(all: &[Record], repeats: u64) {
     let least = 0.95 - 2.6 * (0.95 * 0.05 / repeats as f64).sqrt();
     let (mut worst, mut smallest) = (Vec::new(), 1.0_f64);
