@@ -132,6 +132,26 @@ fn a_zero_that_rows_before_the_impact_contradict_is_told() {
 }
 
 #[test]
+fn a_clipped_record_identifies_nothing() {
+    let folder = Folder::new();
+    let whole = blow(1.0);
+    let most = 2.0 * (STIFFNESS / 4.0).sqrt() * 0.6;
+    let clipped = whole.lines().enumerate().map(|(at, line)| match line.split_once(',') {
+        Some((time, value)) if at > 0 => {
+            format!("{time},{:.6}\n", value.parse::<f64>().unwrap().min(most))
+        }
+        _ => format!("{line}\n"),
+    });
+    fs::write(folder.0.path().join("clipped.csv"), clipped.collect::<String>()).unwrap();
+    let range = ["--vary", "K=5..500 kN/m"];
+    let (status, text) = folder.fit("clipped.csv:acc=head.acceleration", &range);
+    assert_eq!(status, 0, "{text}");
+    assert!(text.contains("the record is clipped") && !text.contains('±'), "{text}");
+    let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &range);
+    assert!(!text.contains("clipped"), "{text}");
+}
+
+#[test]
 fn like_parts_that_change_places_are_no_other_minimum() {
     let folder = Folder::new();
     let other = format!("{}:force=pad", folder.at("slow.csv"));

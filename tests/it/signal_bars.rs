@@ -278,6 +278,28 @@ fn bounds_are_told_wherever_a_number_is() {
     assert!(page.contains("at least") && page.contains("its axis z is clipped"));
 }
 
+/// A pulse that ends in a jump (MIL-STD-810, terminal-peak sawtooth), wherever its samples lie: how far it rises behind
+/// the last one before the jump is not known.
+#[test]
+fn a_peak_beside_a_jump_has_an_error() {
+    let folder = TempDir::new().unwrap();
+    for phase in 0..10 {
+        for scale in [100.0, -60.0] {
+            let mut text = "t [ms],a [g]\n".to_owned();
+            for at in 0..40 {
+                let time = f64::from(at) - 10.0 + 0.1 * f64::from(phase);
+                let value = if (0.0..=11.0).contains(&time) { scale * time / 11.0 } else { 0.0 };
+                writeln!(text, "{at},{value:.6}").unwrap();
+            }
+            let all = json(&["signal", &write(&folder, &text), "--json"]);
+            let (value, error) = measure(&all, "peak");
+            let off = (value.abs() - scale.abs() * STANDARD_GRAVITY).abs();
+            let step = scale.abs() * STANDARD_GRAVITY / 11.0;
+            assert!(off <= error && error < 1.2 * step, "{phase} {scale}: {value} ± {error}");
+        }
+    }
+}
+
 /// Numbers that scatter as a normal one does: sums of twelve evenly distributed ones.
 struct Random(u64);
 

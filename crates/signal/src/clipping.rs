@@ -1,5 +1,7 @@
 //! What a record that is clipped leaves of each measure: a bound, where it is on the stretch that is clipped.
 
+use dashpot_units::Dimension;
+
 use crate::{Channel, Measure, Motion, Reading, Reason};
 
 /// So many equal samples in a row are no chance.
@@ -48,6 +50,16 @@ pub(crate) fn runs(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + 
         let is_part = length >= EQUAL && length < values.len();
         is_part && stands_out(before) && stands_out(values.get(start + length))
     })
+}
+
+/// How many rows of a record, by time and value, are clipped as by a sensor or amplifier at the end of its range.
+pub fn clipped_rows(rows: &[(f64, f64)]) -> usize {
+    let (times, values) = rows.iter().copied().unzip();
+    let Ok(record) = Channel::new("", Dimension::NUMBER, times, values) else { return 0 };
+    let stretches = stretches(&record);
+    let is_clipped =
+        |row: &&(f64, f64)| stretches.iter().any(|own| own.0 <= row.0 && row.0 <= own.1);
+    rows.iter().filter(is_clipped).count()
 }
 
 /// The stretches \[s\] in which a record is at the end of the range of a sensor or amplifier: runs at its largest magnitude.

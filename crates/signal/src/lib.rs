@@ -33,7 +33,7 @@ pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
 pub use axes::{Axis, Label, Place, Places};
 pub use cfc::{Cfc, CfcFault, Padding};
 pub use channel::{Channel, ChannelFault, Steps};
-pub use clipping::Truth;
+pub use clipping::{Truth, clipped_rows};
 pub use defects::Defect;
 pub use impact::{CONTACT_LEVEL, Contact, Impact};
 pub use measures::{Measure, Reading, Reason};

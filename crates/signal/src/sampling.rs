@@ -2,6 +2,9 @@
 
 use crate::Channel;
 
+/// A step that changes by so many times more than those beside it holds a jump.
+const JUMP: f64 = 3.0;
+
 /// How far a signal may be from the straight line between its samples, as far as the bends at its samples tell.
 ///
 /// With the change of slope `κ` at both ends of a step `h`, `d = κ1 h` and `e = κ2 h`:
@@ -86,9 +89,24 @@ impl<'c> Sampling<'c> {
             let [one, other] = [values[at], values[at + 1]];
             let higher = one.max(other) + hidden.height.max(0.0);
             let lower = -one.min(other) + (-hidden.height).max(0.0);
-            if hidden.is_smooth { higher.max(lower) - largest } else { 0.0 }
+            let most = if hidden.is_smooth { higher.max(lower) } else { self.beside_a_jump(at) };
+            most - largest
         };
         (0..values.len() - 1).map(above).fold(0.0, f64::max)
+    }
+
+    /// How large the magnitude may be in a step that holds a jump: up to it the signal may go on as it did in the step
+    /// before, and have come behind it as it does in the step after. 0 where the step is as its neighbours are.
+    fn beside_a_jump(&self, at: usize) -> f64 {
+        let (times, values) = (self.channel.times(), self.channel.values());
+        let change =
+            |from: usize| (values[from + 1] - values[from]) / (times[from + 1] - times[from]);
+        let step = times[at + 1] - times[at];
+        let before = at.checked_sub(1).map_or(0.0, |before| step * change(before));
+        let after = if at + 2 < values.len() { step * change(at + 1) } else { 0.0 };
+        let is_jump = (values[at + 1] - values[at]).abs() > JUMP * before.abs().max(after.abs());
+        let ends = [values[at] + before, values[at + 1] - after].map(f64::abs);
+        if is_jump { ends[0].max(ends[1]) } else { 0.0 }
     }
 
     /// How far the time at which what is made of the values passes a level may be off, in each step of a window \[s\].

@@ -23,9 +23,9 @@ use crate::{optimum::Scattered, shared::exceeded};
 pub struct Sure {
     /// Designs of that thickness that keep it, and that exceed it.
     pub odds: Odds,
-    /// The probability that is wanted.
-    pub wanted: f64,
-    /// The least thickness \[m\] of which [so many](Odds::least_kept) keep it; `None` where none does that was looked at.
+    /// The part of the designs that is wanted.
+    pub share: f64,
+    /// The least thickness \[m\] of which so many keep it; `None` where none does that was looked at.
     pub thickness: Option<f64>,
 }
 
@@ -151,16 +151,12 @@ impl Sampling<'_, '_, '_> {
         (height, thinnest): (f64, f64),
         (limit, over): (f64, [f64; 2]),
     ) -> Result<Sure, NoCushion> {
-        let (tests, wanted) = (self.tests, self.scattered.probability);
+        let (tests, share) = (self.tests, self.scattered.probability);
         let stresses: Vec<f64> = within(over).collect();
         let first = self.drops(thinnest, &[height], &stresses)?;
         let odds = first.odds(limit);
-        let Some(least) = Odds::least_kept(wanted, odds.designs) else {
-            return Ok(Sure { odds, wanted, thickness: None });
-        };
-        let share = least as f64 / odds.designs as f64;
         let mut before = (thinnest, exceeded(first.excesses(limit), share));
-        let mut own = Sure { odds, wanted, thickness: None };
+        let mut own = Sure { odds, share, thickness: None };
         if before.1 <= 0.0 {
             own.thickness = Some(thinnest);
             return Ok(own);

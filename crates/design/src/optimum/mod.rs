@@ -117,7 +117,9 @@ pub enum DesignError {
     #[expect(missing_docs, reason = "the message says what the fields are")]
     NoSum { low: f64, high: f64 },
     /// So few scattered designs show no such probability.
-    #[error("{designs} scattered designs cannot show that probability: {least} that all keep everything are the least")]
+    #[error(
+        "{designs} scattered designs cannot show that probability: {least} that all keep everything are the least"
+    )]
     #[expect(missing_docs, reason = "the message says what the fields are")]
     TooFew { designs: usize, least: f64 },
     /// No design could be evaluated.

@@ -40,6 +40,8 @@ pub enum NoBand {
     OnBound,
     /// Rows before the impact contradict the zero that was fitted.
     Contradicted,
+    /// A record is clipped: its largest rows are no values.
+    Clipped,
     /// More is left of a record than noise, and much of its peak.
     Missed,
     /// Noise does not tell the minimum from another.
@@ -63,8 +65,12 @@ impl NetworkFit {
             Some(NoBand::OnBound)
         } else {
             let any = |is_one: fn(&TestFit) -> bool| self.tests.iter().any(is_one);
-            let missed = any(|own| own.is_missed).then_some(NoBand::Missed);
-            any(|own| own.other_zero.is_some()).then_some(NoBand::Contradicted).or(missed)
+            let reasons = [
+                (any(|own| own.other_zero.is_some()), NoBand::Contradicted),
+                (any(|own| own.clipped > 0), NoBand::Clipped),
+                (any(|own| own.is_missed), NoBand::Missed),
+            ];
+            reasons.into_iter().find(|own| own.0).map(|own| own.1)
         }
     }
 

@@ -67,6 +67,8 @@ pub struct TestFit {
     pub is_structured: bool,
     /// Whether that is so much of its peak that the model does not describe it.
     pub is_missed: bool,
+    /// Rows at the end of the range of what they were recorded with: how far the truth goes beyond is not known.
+    pub clipped: usize,
     /// What the rows before the impact read, where the fitted zero is none of them.
     pub other_zero: Option<OtherZero>,
     /// What it differs by from other records of the same test, where that was repeated.

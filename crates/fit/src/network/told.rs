@@ -1,5 +1,7 @@
 //! What there is to say about each test at a minimum.
 
+use dashpot_signal::clipped_rows;
+
 use super::{
     Curve, Kind, OtherZero, Test, TestFit,
     residuals::{Own, Task},
@@ -151,6 +153,7 @@ impl Task<'_> {
                 mean_square: unit * unit * mean_square(left),
                 noise,
                 noise_at_rest: at_rest,
+                clipped: if test.kind == Kind::Blow { clipped_rows(&test.rows) } else { 0 },
                 other_zero: other_zero(test, &residual, own, rests),
                 is_structured,
                 is_missed: is_structured && part > MISSED && durbin_watson(left) < FOLLOWING,

@@ -61,8 +61,8 @@ impl Batches {
 
 /// How sure it is that a thinnest cushion keeps its limit.
 pub(super) fn sure(own: &Thinnest, limit: &str) -> Option<(&'static str, String)> {
-    let Sure { odds, wanted, thickness } = own.sure?;
-    let wanted = percent(wanted, FEW);
+    let Sure { odds, share, thickness } = own.sure?;
+    let wanted = percent(share, FEW);
     let enough = match thickness {
         Some(thickness) => format!("{} keep it with {wanted}", no_less(thickness)),
         None => format!("no thickness that was asked for keeps it with {wanted}"),

@@ -88,7 +88,7 @@ pub(crate) struct CushionArguments {
     /// Which of them are drawn; the same number gives the same ones.
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// The probability with which the limit has to be kept where it is told from which thickness on that is sure.
+    /// The part of them that has to keep the limit where it is told from which thickness on that is sure.
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, default_value = "95%")]
     robust: f64,
     /// Method for all drops [default: the scene's, if it names one, else auto].

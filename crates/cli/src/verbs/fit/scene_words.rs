@@ -287,6 +287,7 @@ pub(super) fn no_band(own: NoBand) -> &'static str {
         NoBand::NotConverged => "the search has not converged",
         NoBand::OnBound => "a number is on its bound",
         NoBand::Contradicted => "the rows contradict it",
+        NoBand::Clipped => "a record is clipped",
         NoBand::Missed => "what is left is no noise",
         NoBand::OtherMinimum => "there is another minimum",
         NoBand::NotDetermined => "not determined",

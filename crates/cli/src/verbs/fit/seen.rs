@@ -63,6 +63,13 @@ impl Seen<'_> {
                 self.of(own.offset)
             )
         });
+        let clipped = (own.clipped > 0).then(|| {
+            format!(
+                "{file}: {} rows stand at the end of its range: the record is clipped, and no number is identified; \
+                 `until=` after its comma keeps what stands before",
+                own.clipped
+            )
+        });
         let scatter = own.scatter.map(|own| own.deviation);
         let noise = test.noise.or(scatter).or(own.noise_at_rest);
         let noise = noise
@@ -77,7 +84,7 @@ impl Seen<'_> {
                 if own.is_missed { "; it is so much of the peak that no number is identified" } else { "" }
             )
         });
-        list([held_out, beyond, zero, self.missed_peak(), left].into_iter().flatten())
+        list([held_out, beyond, zero, clipped, self.missed_peak(), left].into_iter().flatten())
     }
 
     fn missed_peak(&self) -> Option<String> {
