@@ -207,6 +207,44 @@ fn a_guided_rig_is_believed_as_far_as_its_other_axes_do_not_contradict() {
 }
 
 #[test]
+fn what_a_channel_of_the_same_body_contradicts_does_not_pass() {
+    let folder = TempDir::new().unwrap();
+    for (names, values, limit, verdict) in [
+        // An axis is no larger than the resultant, which was recorded …
+        (
+            &["Head X", "Head resultant"][..],
+            vec![150.0, 135.0],
+            "Head resultant.peak<=140 g",
+            "undecided",
+        ),
+        (&["Head X", "Head resultant"], vec![130.0, 135.0], "Head resultant.peak<=140 g", "pass"),
+        // … and one of three axes is that which was recorded.
+        (
+            &["Head X", "Head Y", "Head Z", "Head res"],
+            vec![150.0, 100.0, 50.0, 300.0],
+            "Head.peak<=250 g",
+            "undecided",
+        ),
+        (
+            &["Head X", "Head Y", "Head Z", "Head res"],
+            vec![150.0, 100.0, 50.0, 187.1],
+            "Head.peak<=250 g",
+            "pass",
+        ),
+    ] {
+        let path = write(&folder, "own.csv", &axes(names, 5.0, &|_| values.clone()));
+        let (status, found) = judged(&["signal", &path, "--limit", limit]);
+        assert_eq!(
+            (status == 0, &*found[0].1),
+            (verdict == "pass", verdict),
+            "{names:?} {found:?}"
+        );
+        let text = printed(&["signal", &path, "--limit", limit]);
+        assert!(verdict == "pass" || text.contains("of the same body is"), "{text}");
+    }
+}
+
+#[test]
 fn whatever_is_undecided_says_why() {
     let folder = TempDir::new().unwrap();
     let two = write(&folder, "two.csv", &axes(&["HeadX", "HeadZ"], 5.0, &|_| vec![100.0, 240.0]));

@@ -354,7 +354,7 @@ fn what_is_set_keeps_its_part_of_what_scatters_together() {
 
 #[test]
 fn a_design_bears_what_scatters_together_and_no_more() {
-    // The stiffest spring of which 95 % stay below the limit: 1.6449 standard deviations below it.
+    // The stiffest spring of which 485 of 500 stay below the limit, which shows 95 %: 1.8808 standard deviations below it.
     let section = "[design]\nvary = \"K=1..100 kN/m\"\nleast = \"pad.peak-deformation\"\nrobust = \"95%\"\n\
                    scatter = 500\nsample = 40\n";
     for (text_of, s) in [(together(), OF_FORCE[0]), (apart(), OF_FORCE[1])] {
@@ -362,11 +362,11 @@ fn a_design_bears_what_scatters_together_and_no_more() {
         let path = file(&folder, "product.toml", &product(&text_of, section));
         let own = json(&["design", path.to_str().unwrap(), "--json"]);
         let found = number(&own["parameters"]["K"]["value"]);
-        let known = (1500.0_f64 / 5.0).powi(2) / 4.0 * (-2.0 * 1.644_853_627 * s).exp();
+        let known = (1500.0_f64 / 5.0).powi(2) / 4.0 * (-2.0 * 1.880_793_608 * s).exp();
         println!("{text_of}: {found} {known} {}", own["robust"]);
         // The sample tells the quantile to some parts of 500 designs.
         assert!((found / known - 1.0).abs() < 0.5 * s + 1e-3, "{found} {known}");
-        assert!(own["feasible"] == true && number(&own["robust"]["kept"]) >= 475.0);
+        assert!(own["feasible"] == true && number(&own["robust"]["kept"]) >= 485.0);
     }
 }
 

@@ -295,7 +295,7 @@ fn a_peak_beside_a_jump_has_an_error() {
             let (value, error) = measure(&all, "peak");
             let off = (value.abs() - scale.abs() * STANDARD_GRAVITY).abs();
             let step = scale.abs() * STANDARD_GRAVITY / 11.0;
-            assert!(off <= error && error < 1.2 * step, "{phase} {scale}: {value} ± {error}");
+            assert!(off <= error && error < 1.6 * step, "{phase} {scale}: {value} ± {error}");
         }
     }
 }

@@ -176,8 +176,10 @@ fn survives(random: &mut Random) {
         let own = &own[told["measure"].as_str().unwrap()];
         let both = [&own["value"], &told["values"][1]].map(Value::as_f64);
         let [Some(one), Some(other)] = both else { continue };
-        let error = own["error"].as_f64().unwrap_or(0.0)
-            + told["error"].as_f64().unwrap_or(0.0) * other.abs();
+        // What comes and goes with the tolerance has no error to be compared within.
+        let errors = [&own["error"], &told["error"]].map(Value::as_f64);
+        let [Some(of_own), Some(of_told)] = errors else { continue };
+        let error = of_own + of_told * other.abs();
         assert!((one - other).abs() <= error, "{}: {told} {own}", what("groups"));
     }
 
@@ -296,4 +298,34 @@ fn files_of_models_alone_are_valid() {
     let broken = fs::read_to_string(gel).unwrap().replace("dashpot", "dashpit");
     fs::write(gel, broken).unwrap();
     assert_eq!(code(&run(&["check", gel])), 2);
+}
+
+#[test]
+fn scenes_that_are_written_have_units_where_theirs_has_none() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let source = at("bare.toml");
+    let bare = "[values]\nK = 6e4\n[nodes]\nhead = { mass = 4, velocity = 2 }\n[elements]\n\
+                pad = { between = [\"head\", \"ground\"], kelvin-voigt = { spring = \"K\", dashpot = 60 } }\n\
+                [effects]\nseparation.pad = {}\n[run]\nduration = 0.1\n";
+    fs::write(&source, bare).unwrap();
+    let strict = |path: &Path| run(&["check", "--strict", text(path)]);
+    assert_eq!(code(&strict(&source)), 2);
+    let pad = format!("{}:pad", text(&source));
+    let [ran, converted, best] = ["ran", "converted.toml", "best.toml"].map(at);
+    let least = ["--vary", "K=30..120 kN/m", "--least", "head.peak-acceleration", "--sample", "4"];
+    let own = text(&source);
+    for (arguments, out) in [
+        (&["run", own, "--write", "scene"][..], &ran),
+        (&["convert", &pad, "--to", "generalized-maxwell"], &converted),
+        (&[&["design", own][..], &least].concat(), &best),
+    ] {
+        done(&run(&[arguments, &["--out", text(out)]].concat()), arguments[0]);
+    }
+    let ran = ran.join("scene-as-run.toml");
+    for path in [&ran, &converted, &best] {
+        let output = strict(path);
+        assert_eq!(code(&output), 0, "{}\n{}", err(&output), fs::read_to_string(path).unwrap());
+    }
+    are_same(&measures(&[text(&ran)]), &measures(&[own]), 0.0, "run");
 }

@@ -150,8 +150,8 @@ impl Stop {
 }
 
 impl SolveSettings {
-    /// The work that a run may be unless more is asked for: some 20 s, which no scene that makes sense takes.
-    pub const BUDGET: u64 = 500_000_000;
+    /// The work that a run may be unless more is asked for: about half a minute, which no scene that makes sense takes.
+    pub const BUDGET: u64 = 1_000_000_000;
 
     /// A run of `duration` \[s\] by the method that suits, with measures good to 0.1 %.
     pub fn lasting(duration: f64) -> Self {

@@ -3,11 +3,15 @@
 use std::{
     ffi::OsStr,
     fs, io,
+    ops::Range,
     path::{Path, PathBuf},
 };
 
 use clap::Args;
-use dashpot_scene::{Diagnostics, ReadOptions, pose, read_models, with_paths};
+use dashpot_scene::{
+    BareNumbers, Diagnostics, Fault, ReadOptions, pose, read, read_models, with_paths,
+};
+use dashpot_units::si_unit;
 
 use crate::{
     error::CliError,
@@ -75,8 +79,8 @@ pub(crate) struct SceneText<'t> {
 }
 
 impl SceneText<'_> {
-    /// The text as a file at `path` says the same: files beside it are found from there. It is read as from there, and
-    /// compared.
+    /// The text as a file at `path` says the same: files beside it are found from there, and numbers have the units in which
+    /// they are read. It is read as from there, and compared.
     ///
     /// Paths are rewritten and files not copied: a copy would lose its origin, and grow old beside it.
     pub(crate) fn at(&self, path: &Path) -> Result<String, CliError> {
@@ -95,14 +99,38 @@ impl SceneText<'_> {
             with_paths_of_sections(&with_paths(self.text, &led_file), &led)
         };
         let otherwise = |reason| CliError::WrittenOtherwise { path: path.to_owned(), reason };
+        let place = path.to_string_lossy();
         let read = |text: &str, file: &str| said(text, &options(Some(file), self.set));
-        let again = read(&text, &path.to_string_lossy());
+        let is_same = |own: &String| read(own, &place).ok() == read(&text, &place).ok();
+        let in_units = with_units(&text, &options(Some(&place), self.set)).filter(is_same);
+        let text = in_units.unwrap_or(text);
+        let again = read(&text, &place);
         let again = again.map_err(|faults| otherwise(messages(&faults)))?;
         if text != self.text && read(self.text, self.file).is_ok_and(|own| own != again) {
             return Err(otherwise("its numbers are others there".to_owned()));
         }
         Ok(text)
     }
+}
+
+/// The text with their units behind numbers that are read without one; `None` where there are none.
+fn with_units(text: &str, options: &ReadOptions<'_>) -> Option<String> {
+    let options = ReadOptions { bare: BareNumbers::Warned, ..*options };
+    let warnings = match read_models(text, &options) {
+        Some(models) => models.ok()?.warnings,
+        None => read(text, &options).ok()?.warnings,
+    };
+    let mut places: Vec<(Range<usize>, String)> = list(warnings.list.iter().filter_map(|own| {
+        let Fault::NoUnit { text: number, expected, .. } = &own.fault else { return None };
+        let is_here = own.source.as_ref().is_some_and(|source| *source.text == *text);
+        let span = own.span.clone().filter(|_| is_here && number.parse::<f64>().is_ok())?;
+        Some((span, format!("\"{number} {}\"", si_unit(*expected))))
+    }));
+    places.sort_by_key(|own| own.0.start);
+    places.dedup_by_key(|own| own.0.start);
+    let mut whole = text.to_owned();
+    places.iter().rev().for_each(|(span, own)| whole.replace_range(span.clone(), own));
+    (!places.is_empty()).then_some(whole)
 }
 
 /// All that a text says to a solver: what is printed of numbers tells them apart to the bit.

@@ -98,7 +98,7 @@ impl Budget {
     /// Counts what steps of so many unknowns took besides themselves.
     pub(crate) fn charge_besides(&self, work: Besides, unknowns: usize) {
         let size = unknowns.min(MOST_UNKNOWNS);
-        let solution = OVERHEAD / 2 + size as u64;
+        let solution = OVERHEAD + size as u64;
         let factorization = OVERHEAD + (size * (4 + size.min(DENSE)) / 4) as u64;
         let rejected = work.rejected as u64 * (OVERHEAD + size as u64);
         let solved = work.solutions as u64 * solution;

@@ -129,6 +129,20 @@ impl Places {
     }
 }
 
+/// The location of a channel that by its name or code is a resultant which was recorded: `Head` of `Head res`.
+pub fn location_of_resultant(name: &str) -> Option<String> {
+    let code = ChannelCode::new(name);
+    if is_code(name) && code.direction() == Some('R') {
+        return code.location().map(str::to_owned);
+    }
+    let is_word = |own: &&str| RESULTANTS.contains(&&*own.to_lowercase());
+    let word = tokens(name).into_iter().find(is_word)?;
+    let (before, behind) = name.split_once(word)?;
+    let is_apart = |own: char| !own.is_alphanumeric();
+    let parts = [before, behind].map(|own| own.trim_matches(is_apart));
+    Some(parts.into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>().join(" "))
+}
+
 impl Place {
     /// Whether both are at the same location and measure the same, each along its axis.
     pub fn is_beside(&self, other: &Self) -> bool {

@@ -30,7 +30,7 @@ mod whitener;
 mod work;
 
 pub use analysis::{Analysis, Removal, Settings, SettingsFault, Treated};
-pub use axes::{Axis, Label, Place, Places};
+pub use axes::{Axis, Label, Place, Places, location_of_resultant};
 pub use cfc::{Cfc, CfcFault, Padding};
 pub use channel::{Channel, ChannelFault, Steps};
 pub use clipping::{Truth, clipped_rows};

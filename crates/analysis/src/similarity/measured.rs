@@ -183,6 +183,7 @@ fn pair(measure_report: &MeasureReport, opposite: &MeasureReport, factor: f64) -
     let larger = both.map_or(0.0, |(one, other)| one.abs().max(other.abs()));
     let difference = both.map(|(one, other)| (one - other).abs());
     let errors = measure_report.error.zip(opposite.error).map(|(one, other)| one + other / factor);
+    let errors = errors.filter(|error| error.is_finite());
     Measured {
         key: measure_report.key.clone(),
         unit: measure_report.unit,

@@ -32,6 +32,7 @@ impl CliError {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!("there are {}", known.join(", ")),
             }),
+            Self::TooFewScattered { least } => Some(format!("`--scatter {least}` or more")),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
             Self::Tunable { fault, .. } | Self::Gradient(fault) => fault.help(),

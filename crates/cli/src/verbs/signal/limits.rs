@@ -3,7 +3,9 @@
 use dashpot_analysis::{Bound, Judgement, Limit, Reason};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits};
-use dashpot_signal::{Analysis, Measure, Part, Reading, Reason as Open, Truth};
+use dashpot_signal::{
+    Analysis, Measure, Part, Reading, Reason as Open, Truth, location_of_resultant,
+};
 
 use super::{Signal, Signals};
 use crate::error::CliError;
@@ -39,6 +41,8 @@ pub(super) struct Verdict<'s> {
     pub(super) resultant: Option<&'s Signal>,
     /// What that says, where it contradicts that the rig lets nothing move along its further axes.
     pub(super) contradiction: Option<Reading>,
+    /// A channel of the same body that exceeds what this one keeps, and what it reads.
+    pub(super) against: Option<(&'s Signal, &'s Reading)>,
 }
 
 impl Verdict<'_> {
@@ -220,12 +224,45 @@ impl Signals {
             let known = mean(&tests.iter().map(of_all).collect::<Vec<_>>())?;
             (judge(&known, bound, reason) != judgement).then_some(known)
         });
-        if contradiction.is_some() {
+        let against = match (judgement, bound) {
+            (Judgement::Pass, Bound::Max(_)) if is_of_body => self.against(tests, bound),
+            _ => None,
+        };
+        if contradiction.is_some() || against.is_some() {
             judgement = Judgement::Undecided(Reason::OtherAxes);
         }
         let tests = tests.len();
-        Some(Verdict { limit, signal, tests, known, judgement, resultant, contradiction })
+        Some(Verdict { limit, signal, tests, known, judgement, resultant, contradiction, against })
     }
+
+    /// A channel of the same body that was recorded and exceeds a bound: no axis is larger than the resultant of all, and one
+    /// that was recorded is the same.
+    fn against<'s>(
+        &'s self,
+        tests: &[(&'s Signal, &'s Reading)],
+        bound: Bound,
+    ) -> Option<(&'s Signal, &'s Reading)> {
+        let of = |(own, reading): &(&'s Signal, &'s Reading)| {
+            let place = location(own)?;
+            let is_of_it = |other: &&Signal| {
+                other.file == own.file
+                    && !matches!(other.analysis.part, Part::Resultant { .. })
+                    && other.analysis.channel.dimension() == own.analysis.channel.dimension()
+                    && location(other).is_some_and(|other| other.eq_ignore_ascii_case(&place))
+            };
+            self.all.iter().filter(is_of_it).find_map(|other| {
+                let further = other.analysis.reading(reading.measure)?;
+                (judge(further, bound, None) == Judgement::Fail).then_some((other, further))
+            })
+        };
+        tests.iter().find_map(of)
+    }
+}
+
+/// The location that the name of a channel tells, of an axis or of a resultant.
+fn location(own: &Signal) -> Option<String> {
+    let of_part = own.analysis.part.location().map(str::to_owned);
+    of_part.or_else(|| location_of_resultant(own.analysis.channel.name()))
 }
 
 /// The reading of a channel that a limit is on.

@@ -235,6 +235,10 @@ fn other_axes(own: &Verdict<'_>, found: impl Fn(&Reading) -> String) -> String {
     let are = |count: usize| if count == 1 { "is" } else { "are" };
     let beside = list(analysis.beside.iter().map(|own| format!("`{own}`")));
     let (others, count) = (beside.join(", "), beside.len());
+    if let Some((other, reading)) = own.against {
+        let other = other.analysis.channel.name();
+        return format!("`{other}` of the same body is {}: one of them is wrong", found(reading));
+    }
     if let Some(resultant) = own.resultant {
         let further = resultant.analysis.part.axes().into_iter().filter(|own| !axes.contains(own));
         let (one, further) = (joined(&axes), joined(&further.collect::<Vec<_>>()));
