@@ -73,7 +73,10 @@ pub fn robust(
             (is_enough, _) => is_enough,
         };
         if found.as_ref().and_then(|own| own.borne).is_none_or(|own| is_better(&own)) {
-            found = Some(Design { borne: Some(borne), ..own });
+            // Where no design keeps limits that are drawn in so far, this one is the nearest: it may keep those that are asked.
+            let is_kept = own.kept.iter().all(|own| own.margin >= 0.0);
+            let is_feasible = is_feasible || borne.is_enough() && is_kept;
+            found = Some(Design { borne: Some(borne), is_feasible, ..own });
         }
         let exceeded = sample.exceeded(share);
         if borne.is_enough() {

@@ -163,10 +163,14 @@ pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
             ),
         },
         own => {
-            let with = own.map_or(String::new(), |own| {
-                format!(" with a probability of {}", percent(own.wanted, FEW))
-            });
-            let text = format!("{name} {least} is the least that keeps everything{with}");
+            let text = match own {
+                // Limits are drawn in by one number for all of them.
+                Some(own) => format!(
+                    "{name} {least} is the least found that keeps everything with a probability of {} or more",
+                    percent(own.wanted, FEW)
+                ),
+                None => format!("{name} {least} is the least that keeps everything"),
+            };
             Line { label: "BEST", text }
         }
     }
@@ -183,9 +187,11 @@ fn borne_text(own: &Borne) -> String {
         "without any limit drawn in".to_owned()
     };
     format!(
-        "{} of {} scattered designs keep everything in all tests ({share}, {} wanted); {drawn_in}",
+        "{} of {} scattered designs keep everything in all tests ({share}); {} of them show {}, and a larger `--scatter` \
+         fewer parts of them; {drawn_in}",
         own.kept,
         own.designs,
+        own.least().unwrap_or(own.designs),
         percent(own.wanted, FEW)
     )
 }

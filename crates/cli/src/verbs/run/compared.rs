@@ -46,9 +46,15 @@ impl Numbers {
         };
         let (measured, model) = (channel(list(rows.iter().map(|own| own.1)))?, channel(model)?);
         let rating = Rating::of(&measured, &model, measured.span());
+        // What the record reads at rest before the run tells its zero and its noise.
+        let first = *times.first()?;
+        let before = curve.rows.iter().take_while(|own| own.0 < first);
+        let (times, values) = before.chain(rows).copied().unzip();
+        let measured =
+            Channel::new(&*curve.column, dimension(curve.output.of), times, values).ok()?;
         let relative = run.worst_relative_error().unwrap_or(0.0);
         let error = signal.error.unwrap_or(relative * model.largest().1);
-        let approach = approach(curve, (*times.first()?, zero), run, scene);
+        let approach = approach(curve, (first, zero), run, scene);
         let settings = Settings { approach, ..Settings::default() };
         Some(Self {
             measured: settings.analyse(measured).ok()?,

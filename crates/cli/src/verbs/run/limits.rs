@@ -119,7 +119,11 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
 fn of_designs(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     let is_it = judged.judgement == Judgement::Undecided(Reason::Scatter);
     let wanted = run.scatter.as_ref().filter(|_| is_it)?.wanted;
-    Some(format!("it passes at the means, but {} of the designs are wanted to", percent(wanted, 3)))
+    Some(format!(
+        "it passes at the means, but the whole range of the probability has to be {} or more, and a larger `--sample` \
+         makes it narrower",
+        percent(wanted, 3)
+    ))
 }
 
 /// What exceeds a limit that is kept in the impact, outside of it.

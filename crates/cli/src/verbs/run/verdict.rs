@@ -55,7 +55,7 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
     let words = Words { answer, run };
     let found = Verdict::of(run);
     let peak_force = || found.peak_force.map(|peak| words.peak(peak, " in "));
-    let [force, of_it] = match found.whole_force {
+    let [force, in_one] = match found.whole_force {
         Some(whole) => [Some(whole_force(whole)), peak_force()],
         None => [peak_force(), None],
     };
@@ -74,7 +74,7 @@ pub(super) fn verdict(answer: &Answer) -> Vec<Line> {
     let lines = [
         ("stopped", stopped(run)),
         ("peak force", force),
-        ("of it", of_it),
+        ("in one part", in_one),
         ("elsewhere", elsewhere),
         ("peak g", found.peak_acceleration.map(|peak| words.peak_g(peak))),
         (DEFLECTION, found.depth.map(|depth| words.depth(depth))),
