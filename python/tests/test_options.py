@@ -47,7 +47,7 @@ def test_faults_of_options_name_them_as_python_does():
     assert found.value.faults[0]["message"].startswith('`at="7 s"` lies beyond')
     with pytest.raises(dashpot.SceneError, match="runn") as found:
         dashpot.call("runn", "reference")
-    assert "'run'" in found.value.faults[0]["help"]
+    assert "`run`" in found.value.faults[0]["help"]
 
 
 def test_a_verb_without_an_object_says_so():
