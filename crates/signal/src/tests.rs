@@ -75,6 +75,17 @@ fn read(analysis: &Analysis, measure: Measure) -> (f64, f64) {
     (reading.value.unwrap(), reading.error)
 }
 
+/// Whether a truth is what a measure says of it: a pulse with a flat top may be clipped, so that it is a bound.
+fn holds(analysis: &Analysis, measure: Measure, truth: f64, rounding: f64) -> bool {
+    let reading = analysis.reading(measure).unwrap();
+    let above = reading.value.unwrap() - truth;
+    match reading.truth {
+        Truth::Within => above.abs() <= reading.error + rounding,
+        Truth::AtLeast => above <= rounding,
+        Truth::AtMost => -above <= rounding,
+    }
+}
+
 #[test]
 fn closed_forms_are_within_the_errors_that_are_stated() {
     let unit = 200.0_f64.powf(2.5) * LENGTH;
@@ -99,7 +110,7 @@ fn closed_forms_are_within_the_errors_that_are_stated() {
                 ] {
                     let (value, error) = read(&found, measure);
                     assert!(
-                        (value - expected).abs() <= error + 2e-6 * expected,
+                        holds(&found, measure, expected, 2e-6 * expected),
                         "{} of {} at {rate} Hz, {shift}: {value} ± {error}, not {expected}",
                         measure.word(),
                         pulse.name
@@ -128,7 +139,12 @@ fn an_offset_that_is_found_is_taken_off_within_its_error() {
             assert!(rest.window.1 < 0.0101, "{}: {rest:?}", pulse.name);
             let (value, error) = read(&found, Measure::VelocityChange);
             let exact = pulse.mean * HEIGHT * LENGTH;
-            assert!((value - exact).abs() <= error + 1e-9, "{}: {value} ± {error}", pulse.name);
+            let name = pulse.name;
+            let holds = holds(&found, Measure::VelocityChange, exact, 1e-9);
+            assert!(holds, "{name}: {value} ± {error}");
+            if found.reading(Measure::VelocityChange).unwrap().truth != Truth::Within {
+                continue;
+            }
             // What is not taken off moves the change of velocity by its product with the time.
             let left = Settings::default().analyse(sampled(pulse, rate, 0.4, offset)).unwrap();
             let (moved, _) = read(&left, Measure::VelocityChange);
