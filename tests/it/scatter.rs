@@ -292,6 +292,17 @@ fn designs_side_by_side_have_their_ranges_and_probabilities() {
 }
 
 #[test]
+fn a_probability_passes_where_its_whole_range_does() {
+    // 96 % and 98 % of 500 designs: their ranges begin at 93.9 % and 96.4 %.
+    for (deviations, verdict) in [(1.750_686, "UNDECIDED"), (2.053_749, "PASS")] {
+        let (_folder, path) =
+            written("25 ± 2.5 kN/m", &format!("pad.peak-force = \"{} N\"", peak_at(deviations)));
+        let text = out(&run(&["run", &path, "--sample", "500"]));
+        assert!(text.contains(verdict), "{text}");
+    }
+}
+
+#[test]
 fn scatter_of_what_the_scene_does_not_use_is_not_drawn() {
     let (_folder, path) = written("25 ± 2.5 kN/m", "");
     let scattered = of_run(&path, &["--sample", "50"])["scatter"].clone();
