@@ -173,6 +173,11 @@ fn a_robust_design_passes_with_the_probability_that_is_asked_for() {
     // On its limit, half of them fail.
     let chance = |own: &Value| number(&own["tests"][0]["scatter"]["limits"][0]["probability"]);
     assert!((chance(&plain) - 0.5).abs() < 0.02, "{}", chance(&plain));
+    let said = squeezed(&out(&run(&["design", text(&path)])));
+    assert!(
+        said.contains("keeps everything at the means of what has scatter: `--robust 95%`"),
+        "{said}"
+    );
     let robust = json(&["design", text(&path), "--robust", "90%", "--json"]);
     // 464 of 500 show 90 %, and lie below 1.461 standard deviations.
     assert_eq!(Odds::least_kept(0.9, 500), Some(464));
@@ -198,6 +203,67 @@ fn a_robust_design_passes_with_the_probability_that_is_asked_for() {
         let output = run(&[&["design", text(&bare)], options].concat());
         assert!(code(&output) == 2 && err(&output).contains(reason), "{}", err(&output));
     }
+}
+
+/// 5 kg at 4 m/s on a spring that holds a limit: v √(K m) ≤ F.
+const HELD: &str = "[nodes]\nhead = { mass = \"5 kg\", velocity = \"4 m/s\" }\n[elements]\n\
+     pad = { between = [\"head\", \"ground\"], spring = \"40 kN/m\", thickness = \"90 mm\" }\n\
+     [run]\nduration = \"100 ms\"\n";
+
+#[test]
+fn a_design_that_is_written_again_keeps_its_limits() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "held.toml", HELD);
+    let best = folder.path().join("best.toml");
+    // Both at bounds that no short decimal is: the largest mass, and the least one where a depth is to be reached.
+    for (limit, least, exact) in [
+        ("pad.peak-force<=1.777 kN", "head.peak-acceleration", (1777.0_f64 / 4.0).powi(2) / 40e3),
+        ("pad.peak-force>=1.777 kN", "head.mass", (1777.0_f64 / 4.0).powi(2) / 40e3),
+    ] {
+        let vary = ["design", text(&path), "--vary", "head.mass=1..20 kg", "--least", least];
+        let limits = ["--limit", limit];
+        let to = ["--out", text(&best), "--force"];
+        let output = run(&[&vary[..], &limits, &to].concat());
+        let said = squeezed(&out(&output));
+        let shown = said.split("head.mass = ").nth(1).and_then(|own| own.split(" kg").next());
+        let shown = shown.unwrap();
+        let written: f64 = shown.parse().unwrap();
+        assert!((written / exact - 1.0).abs() < 1e-4 && written != exact, "{written} {exact}");
+        let set = format!("head.mass={shown} kg");
+        let again = ["run", text(&path), "--set", &set, "--enforce"];
+        let output = run(&[&again[..], &limits].concat());
+        assert_eq!(code(&output), 0, "{shown}: {}", out(&output));
+        // The limits of the command are in the scene that is written.
+        let kept = json(&["run", text(&best), "--json"]);
+        let all = kept["runs"][0]["limits"].as_array().unwrap();
+        assert!(all.len() == 1 && all[0]["key"] == "pad.peak-force", "{all:?}");
+    }
+}
+
+#[test]
+fn a_number_that_moves_nothing_is_named() {
+    let folder = TempDir::new().unwrap();
+    // A law in N/m is the same whatever the thickness.
+    let path = file(&folder, "held.toml", HELD);
+    let vary = ["--vary", "head.mass=1..20 kg", "--vary", "pad.thickness=80..120 mm"];
+    let least = ["--least", "head.peak-acceleration", "--limit", "pad.peak-force<=1.5 kN"];
+    let arguments = [&["design", text(&path)][..], &vary, &least].concat();
+    let said = squeezed(&out(&run(&arguments)));
+    assert!(!said.contains("head.mass moves nothing"), "{said}");
+    // It changes the depth in parts of the thickness, which has to stay below 1.
+    assert!(!said.contains("pad.thickness moves nothing"), "{said}");
+    let damped = HELD.replace(
+        "[run]",
+        "stay = { between = [\"post\", \"ground\"], spring = \"1 kN/m\" }\n[run]",
+    );
+    let damped = damped.replace("[elements]", "post = { mass = \"1 kg\" }\n[elements]");
+    let damped = file(&folder, "damped.toml", &damped);
+    let vary = ["--vary", "head.mass=1..20 kg", "--vary", "stay.spring=1..9 kN/m"];
+    let arguments = [&["design", text(&damped)][..], &vary, &least].concat();
+    let answer = json(&[&arguments[..], &["--json"]].concat());
+    assert_eq!(answer["unmoved"], serde_json::json!(["stay.spring"]));
+    let said = squeezed(&out(&run(&arguments)));
+    assert!(said.contains("stay.spring moves nothing that is limited or made least"), "{said}");
 }
 
 /// Two layers with a free joint between them.

@@ -61,6 +61,31 @@ fn options_that_do_nothing_are_refused_by_name() {
 }
 
 #[test]
+fn what_is_set_twice_is_refused() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", PAD);
+    let scene = text(&scene);
+    let twice = ["--set", "K=50 kN/m", "--set", "K=60 kN/m"];
+    let variants = ["--variant", "thick: K=50 kN/m", "--variant", "thick: K=60 kN/m"];
+    let with = ["--with", "hold=5 ms", "--with", "hold=6 ms"];
+    for (arguments, name) in [
+        ([&["run", scene][..], &twice].concat(), "`K`"),
+        ([&["explain", scene][..], &twice].concat(), "`K`"),
+        ([&["design", scene, "--solve-for", "pad.thickness"][..], &twice].concat(), "`K`"),
+        ([&["run", scene][..], &variants].concat(), "`thick`"),
+        (vec!["run", scene, "--variant", "thick: K=5 kN/m, K=6 kN/m"], "`K`"),
+        ([&["rheometer", "reference:padding", "--test", "creep"][..], &with].concat(), "`hold`"),
+    ] {
+        let output = run(&arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{arguments:?}");
+        let said = said(&output);
+        assert!(said.contains(name) && said.contains("twice"), "{arguments:?}: {said}");
+    }
+    // The value of a variant stands above that of the command.
+    assert_eq!(code(&run(&["run", scene, "--set", "K=50 kN/m", "--variant", "K=60 kN/m"])), 0);
+}
+
+#[test]
 fn options_that_do_something_are_taken() {
     let room = TempDir::new().unwrap();
     let scene = file(&room, "pad.toml", &PAD.replace("\"60 kN/m\"", "\"60 ± 3 kN/m\""));
@@ -195,6 +220,7 @@ fn slips_of_the_command_line_are_told_with_what_to_write() {
     let convert = ["convert", "reference:padding", "--to", "generalized-maxwell", "--out"];
     for (arguments, advice) in [
         (vec!["rnu", scene], "did you mean `run`?"),
+        (vec![scene], "` solves a scene"),
         (vec!["run", scene, "--otu", "x"], "did you mean `--out`?"),
         (vec!["sweep", scene], "for example `dashpot sweep "),
         (
@@ -204,6 +230,8 @@ fn slips_of_the_command_line_are_told_with_what_to_write() {
         (vec!["run", folder], "name a file in it"),
         (vec!["new", "pad.toml"], "`--out FILE.toml` says which file is written"),
         (vec!["list", "maxwel"], "did you mean `maxwell`?"),
+        // Another number is another standard.
+        (vec!["run", scene, "--limit", "head.hic15=fmvss-208"], "did you mean `fmvss-208-hic15`?"),
         (vec!["cushion", scene, "--stress", "1..10"], "\"1..10 kPa\" or \"1..10 Pa\""),
         ([&convert[..], &[text(&nowhere)]].concat(), &missing),
     ] {

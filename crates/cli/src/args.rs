@@ -1,12 +1,13 @@
 //! Arguments that several verbs have: types, what reads their values, names from the registers.
 
 use std::{
-    ffi::OsStr,
+    collections::HashSet,
+    ffi::{OsStr, OsString},
     path::{Path, PathBuf},
 };
 
 use clap::{
-    Args, Command, CommandFactory, ValueEnum,
+    ArgMatches, Args, Command, CommandFactory, FromArgMatches, ValueEnum,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
     error::{ContextKind, ContextValue, ErrorKind},
 };
@@ -60,7 +61,10 @@ pub(crate) fn variant(text: &str) -> Result<Variant, String> {
     if name.trim().is_empty() {
         return Err("there is no name before the colon; write \"thick: K=60 kN/m\"".to_owned());
     }
-    let set = values.split(',').map(assignment).collect::<Result<_, _>>()?;
+    let set: Vec<(String, String)> = values.split(',').map(assignment).collect::<Result<_, _>>()?;
+    if let Some(twice) = repeated(set.iter().map(|own| &own.0)) {
+        return Err(format!("`{twice}` is set twice: only one of both can hold"));
+    }
     Ok(Variant { name: name.trim().to_owned(), set })
 }
 
@@ -157,6 +161,38 @@ pub(crate) enum Switch {
     Off,
 }
 
+/// The arguments that these words state, no name twice among those of one option.
+pub(crate) fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Arguments, clap::Error> {
+    let mut command = Arguments::command();
+    let matches = command.try_get_matches_from_mut(words)?;
+    let twice = matches.subcommand().and_then(|own| named_twice(own.1));
+    match twice {
+        Some((option, name)) => Err(command.error(
+            ErrorKind::ArgumentConflict,
+            format!("`--{option}` names `{name}` twice: only one of both can hold"),
+        )),
+        None => Arguments::from_arg_matches(&matches),
+    }
+}
+
+/// An option that names something twice, and what.
+fn named_twice(matches: &ArgMatches) -> Option<(String, String)> {
+    matches.ids().find_map(|id| {
+        let id = id.as_str();
+        let assigned = matches.try_get_many::<(String, String)>(id).ok().flatten();
+        let variants = matches.try_get_many::<Variant>(id).ok().flatten();
+        let names = assigned.into_iter().flatten().map(|own| &own.0);
+        let names = names.chain(variants.into_iter().flatten().map(|own| &own.name));
+        Some((id.replace('_', "-"), repeated(names)?))
+    })
+}
+
+/// The first name that stands there for the second time.
+fn repeated<'a>(names: impl Iterator<Item = &'a String>) -> Option<String> {
+    let mut known = HashSet::new();
+    names.into_iter().find(|own| !known.insert(*own)).cloned()
+}
+
 /// The error with what to write: the word that was probably meant, quotes around a unit that stands alone, or an example
 /// of what is not whole.
 pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
@@ -182,6 +218,8 @@ pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
     let unit = unknown.split(',').next().unwrap_or_default();
     let tip = if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
         Some(unquoted_help(unit))
+    } else if error.kind() == ErrorKind::InvalidSubcommand && unknown.ends_with(".toml") {
+        Some(format!("`dashpot run {unknown}` solves a scene"))
     } else if Path::new(&word(ContextKind::InvalidValue))
         .extension()
         .is_some_and(|own| own == "toml")

@@ -5,7 +5,6 @@ use std::{
     path::Path, sync::Arc,
 };
 
-use clap::Parser;
 use dashpot_network::NetworkWarning;
 use dashpot_scene::{Diagnostic, Diagnostics, Scene, Severity, read};
 
@@ -14,7 +13,7 @@ use crate::{
     error::{CliError, Status},
     input::{Input, options},
     terminal::Terminal,
-    verbs::{Arguments, undefined},
+    verbs::undefined,
 };
 
 thread_local! {
@@ -172,7 +171,7 @@ pub fn call(arguments: impl IntoIterator<Item = OsString>, host: Host) -> Called
     let words: Vec<OsString> = once("dashpot".into()).chain(arguments.iter().cloned()).collect();
     // A call from within a call ends before that goes on.
     let _outer = Outer(HOSTED.replace(Some(Hosted { host, arguments, called: Called::default() })));
-    let status = match Arguments::try_parse_from(words) {
+    let status = match args::parsed(words) {
         Ok(arguments) => {
             let terminal = Terminal::unattended();
             arguments.command.run(terminal).unwrap_or_else(|error| {

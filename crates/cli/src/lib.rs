@@ -32,8 +32,6 @@ mod verbs;
 
 use std::{io::ErrorKind, process::ExitCode};
 
-use clap::Parser;
-
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
 pub use input::load;
 pub use options::{VerbOption, options};
@@ -42,13 +40,12 @@ pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 
 use error::{CliError, Status};
 use terminal::Terminal;
-use verbs::Arguments;
 
 /// Does what the command line says. The exit code is 0 when it is done (warnings included), 1 when
 /// a run failed, 2 when the input is wrong, 3 when two models are not the same, or two scenes not similar, and 4 when
 /// a limit that is enforced is not kept.
 pub fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match args::parsed(std::env::args_os()) {
         Ok(arguments) => arguments,
         Err(message) => {
             let message = args::explained(message);

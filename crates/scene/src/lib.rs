@@ -56,6 +56,7 @@ pub use vary::listed::{Listed, ListedFault};
 pub use vary::scatter::{Change, Drawn, Sample, ScatteredNumber};
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};
+pub use write::limits::with_limits;
 pub use write::references::with_paths;
 pub use write::rewrite::with_model;
 pub use write::scene::{Unwritable, write_scene};

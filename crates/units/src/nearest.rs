@@ -1,6 +1,7 @@
 //! The word that was probably meant.
 
-/// The word of `known` that is nearest to `word` in letters, if one is near.
+/// The word of `known` that is nearest to `word` in letters, if one is near: the first that goes on behind it with a hyphen,
+/// and none that differs in the digits of a number, which is another thing.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let lower = word.to_lowercase();
     let limit = match lower.chars().count() {
@@ -8,13 +9,21 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         1..=3 => 1,
         count => (count / 3).max(2),
     };
+    let digits = |own: &str| own.chars().filter(char::is_ascii_digit).collect::<String>();
+    let of_word = digits(&lower);
     known
         .into_iter()
-        .map(|candidate| {
-            let distance = strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
-            (distance, candidate)
+        .filter_map(|candidate| {
+            let other = candidate.to_lowercase();
+            if other.strip_prefix(&lower).is_some_and(|rest| rest.starts_with('-')) {
+                return Some((0, candidate));
+            }
+            let distance = strsim::damerau_levenshtein(&lower, &other);
+            let of_other = digits(&other);
+            let is_other_number = of_other.len() == of_word.len() && of_other != of_word;
+            let is_near = distance <= limit && distance < candidate.chars().count();
+            (is_near && !is_other_number).then_some((distance, candidate))
         })
-        .filter(|(distance, candidate)| *distance <= limit && *distance < candidate.chars().count())
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }

@@ -1,6 +1,6 @@
 //! What to do about an error.
 
-use std::path::Path;
+use std::{fs, path::Path};
 
 use dashpot_analysis::{RunError, similarity::SimilarityError, vibration::VibrationError};
 use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
@@ -16,10 +16,13 @@ impl CliError {
     /// What to do, where that can be said.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
-            Self::Unreadable { name, .. } if Path::new(name).is_dir() => Some(format!(
-                "name a file in it, such as `{}`",
-                Path::new(name).join("pad.toml").display()
-            )),
+            Self::Unreadable { name, .. } if Path::new(name).is_dir() => {
+                let files = fs::read_dir(name).into_iter().flatten().flatten();
+                let scenes = files.map(|own| own.path());
+                let first = scenes.filter(|own| own.extension().is_some_and(|own| own == "toml"));
+                let such = first.min().map(|own| format!(", such as `{}`", own.display()));
+                Some("name a file in it".to_owned() + &such.unwrap_or_default())
+            }
             Self::Unreadable { name, similar: None, .. } if is_unit(name) => {
                 Some(unquoted_help(name))
             }

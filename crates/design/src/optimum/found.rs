@@ -5,6 +5,9 @@ use serde::Serialize;
 
 use super::{Required, search::SAME};
 
+/// A change in parts of a value that is no more than rounding.
+const MOVED: f64 = 1e-9;
+
 /// What a requirement comes to in a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kept {
@@ -72,6 +75,38 @@ impl Design {
     /// The least that is left to anything, in parts of its bound; negative where it is exceeded.
     pub fn least_margin(&self) -> f64 {
         self.kept.iter().map(|own| own.margin).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a number changes anything that is required beside this design, or what is made least where that is a
+    /// measure; true where that is not known.
+    pub fn moves(&self, number: usize, aim_is_measure: bool) -> bool {
+        let Some(slope) = self.slopes.get(number) else { return true };
+        // What rounding makes of two runs that are the same.
+        let moves = |slope: f64, value: f64| {
+            let change = (slope * self.values[number]).abs();
+            change.is_nan() || change > MOVED * value.abs()
+        };
+        let required = slope.values.iter().zip(&self.kept);
+        let of_aim = aim_is_measure && moves(slope.aim, self.aim);
+        of_aim || required.into_iter().any(|(own, kept)| moves(*own, kept.value))
+    }
+
+    /// To which side a number may be rounded so that what holds the design is kept as well as before; `None` where nothing
+    /// does, or some of it would be kept worse on either side.
+    pub fn safe_side(&self, number: usize) -> Option<Side> {
+        if !self.is_feasible || self.at_bound[number].is_some() {
+            return None;
+        }
+        let slopes = &self.slopes.get(number)?.values;
+        let active = slopes.iter().zip(&self.kept).filter(|own| own.1.is_active);
+        let sides = active.filter_map(|(slope, own)| {
+            let what = &own.required.what;
+            let rising = slope * (what.excess(1.0, 0.0) - what.excess(0.0, 0.0));
+            (rising != 0.0).then_some(if rising > 0.0 { Side::Low } else { Side::High })
+        });
+        let mut sides = sides.collect::<Vec<_>>().into_iter();
+        let first = sides.next()?;
+        sides.all(|own| own == first).then_some(first)
     }
 
     /// Whether no other test leaves less to what is required here; of those that leave as much it is the first.

@@ -1,5 +1,6 @@
 //! Models and kinds as TOML text that is read back equal, to the last bits.
 
+pub(crate) mod limits;
 pub(crate) mod references;
 pub(crate) mod rewrite;
 pub(crate) mod scene;

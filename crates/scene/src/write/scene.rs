@@ -2,13 +2,13 @@
 
 use std::{collections::BTreeMap, fmt::Write as _};
 
-use dashpot_analysis::{Limit, MeasureWish, SolveSettings, Stop, measures::Measure};
+use dashpot_analysis::{MeasureWish, SolveSettings, Stop, measures::Measure};
 use dashpot_dae::{Direction, Waveform};
 use dashpot_network::{
     Connection, Element, Model, Network, Node, NodeId, Start, Support,
     elements::{Dashpot, Law, Spring},
     layers::{Layers, Resolution},
-    parameters::{Dimension, Value},
+    parameters::Dimension,
     part,
     waveforms::Recognized,
 };
@@ -17,11 +17,10 @@ use thiserror::Error;
 
 use super::{
     comment_lines, key, law, quoted, write_effect, write_kind, write_material_table, write_pairs,
-    write_value,
 };
 use crate::{
     quantities::basis::{AREA, Basis, DENSITY},
-    sections::{RunSettings, unit_wanted},
+    sections::RunSettings,
     units::{exact_quantity, tidy},
 };
 
@@ -87,7 +86,7 @@ pub fn write_scene(
         let _ = writeln!(text, "{} = {{ on = {on}, force = {{ {force} }} }}", key(&load.name));
     }
     text.push_str(&wishes(&asked.measures));
-    text.push_str(&limits(&asked.limits));
+    text.push_str(&super::limits::section(&asked.limits));
     text.push_str(&settings(run));
     Ok(text)
 }
@@ -221,26 +220,6 @@ fn wishes(measures: &[MeasureWish]) -> String {
         let _ = writeln!(text, "{} = [{}]", key(target), all.join(", "));
     }
     text
-}
-
-/// Limits with their units, those on one measure in one list.
-fn limits(limits: &[Limit]) -> String {
-    let mut by_key: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    for limit in limits {
-        let level = limit.bound.level();
-        let dimension = limit.measure().and_then(|kind| unit_wanted(kind, level));
-        let dimension = dimension.unwrap_or(Dimension::NUMBER);
-        let level = write_value(&Value::Number(level), dimension, Dimension::TIME);
-        let mut pairs = vec![format!("{} = {level}", limit.bound.word())];
-        pairs.extend(limit.from.iter().map(|from| format!("from = {}", quoted(from))));
-        pairs.extend(limit.of_mean.then(|| "mean = true".to_owned()));
-        by_key.entry(&limit.key).or_default().push(format!("{{ {} }}", pairs.join(", ")));
-    }
-    if by_key.is_empty() {
-        return String::new();
-    }
-    let lines = by_key.iter().map(|(key, all)| format!("{} = [{}]\n", quoted(key), all.join(", ")));
-    "\n[limits]\n".to_owned() + &lines.collect::<String>()
 }
 
 fn measure(measure: &dyn Measure) -> String {

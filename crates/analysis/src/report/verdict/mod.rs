@@ -166,6 +166,8 @@ pub struct Leaving<'r> {
     /// The coefficient of restitution with its error, where the impactor has turned and that is known: of the element that
     /// it strikes between bodies, else the impactor's own, its speed over that at touch.
     pub restitution: Option<(f64, Option<f64>)>,
+    /// Whether it is that of the element.
+    pub of_element: bool,
 }
 
 /// What is known of the errors of the values.
@@ -395,14 +397,16 @@ impl<'r> Found<'r> {
         let at = self.0.assembly.position(element)?;
         // A face with mass keeps what strikes it; the element behind it throws both back.
         let at = self.0.assembly.pad_behind(at).map_or(at, |pad| pad.element);
-        let restitution = if self.is_between_bodies(at, node) {
+        let of_element = self.is_between_bodies(at, node);
+        let restitution = if of_element {
             let key = format!("{}.{}", self.connections()[at].name, CoefficientOfRestitution::KIND);
             self.0.measure(&key).and_then(|own| Some((own.value?, own.error)))
         } else {
             node.start_velocity.map(|start| (speed.abs() / start.abs(), None))
         };
         let restitution = restitution.filter(|_| returns);
-        Some(Leaving { impactor: &node.name, speed: speed.abs(), returns, restitution })
+        let (impactor, speed) = (&*node.name, speed.abs());
+        Some(Leaving { impactor, speed, returns, restitution, of_element })
     }
 
     /// Whether the end of an element that is not struck is held or has mass: else the speed of its ends is not that of

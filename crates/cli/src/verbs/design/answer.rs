@@ -99,6 +99,12 @@ impl Answer {
         list(all.map(|own| own.limit.key.as_str()))
     }
 
+    /// The numbers that change nothing beside the best.
+    pub(super) fn unmoving(&self, best: &Design) -> impl Iterator<Item = usize> {
+        let is_measure = matches!(self.asked.least, Least::Measure(_));
+        (0..self.asked.numbers.len()).filter(move |at| !best.moves(*at, is_measure))
+    }
+
     /// Whether the answer is claimed: nothing that could not be evaluated, or is not known of the best, can change it.
     pub(super) fn is_claimed(&self) -> bool {
         let has_none = self.best().is_none_or(|own| !own.1.is_feasible);
@@ -293,6 +299,9 @@ impl Study for Answer {
             limits: design.map(|own| self.limits(own)),
             depths: list(depths),
             active: design.map(|own| words::active(&self.asked, own)),
+            unmoved: design.map(|own| {
+                list(self.unmoving(own).map(|at| self.asked.numbers[at].name.as_str()))
+            }),
             floor: FloorTold::highest(&self.floors, design.map_or(&[], |own| &own.runs)),
             tests: list(tests),
             choices: list(choices),

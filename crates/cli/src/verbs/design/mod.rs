@@ -22,7 +22,7 @@ use dashpot_analysis::{
 use dashpot_design::optimum::{
     Design, DesignError, Effort, Problem, Scattered, design as search, robust,
 };
-use dashpot_scene::{Tunables, read};
+use dashpot_scene::{Tunables, read, with_limits};
 
 use self::{
     among::Choice,
@@ -207,8 +207,10 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         Some(FloorTold::of(&point.network, point.settings.duration, &point.settings.limits))
     };
     let floors = asked.tests.iter().filter_map(told).collect();
-    let text =
-        |own: &TestScene| (own.input.file.clone(), posing.written(own, choice, &best.values));
+    let text = |own: &TestScene| {
+        let text = posing.written(own, choice, &best.values);
+        (own.input.file.clone(), with_limits(&text, &further))
+    };
     let texts = list(scenes.iter().map(text));
     let slices = match &folder {
         Some(_) => figures::slices(arguments, &posing, choice, best),

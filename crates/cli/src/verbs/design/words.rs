@@ -18,6 +18,8 @@ use crate::{
 
 /// Digits of a number that was found, of its bounds, and of what is read beside it.
 pub(super) const DIGITS: usize = 5;
+/// What the last of them is worth beside the first.
+const LAST_DIGIT: f64 = 1e-4;
 const MOST: usize = 7;
 const FEW: usize = 3;
 /// Prices are told for this part of a bound.
@@ -43,7 +45,7 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
             Some(Side::High) => ", AT ITS UPPER BOUND",
             None => "",
         };
-        let value = own.text(best.values[at], DIGITS);
+        let value = number_text(asked, best, at, best.values[at]);
         let [low, high] = own.bounds.map(|bound| own.short(bound, MOST));
         add("design", format!("{} = {value}, between {low} and {high}{at_bound}", own.name));
     }
@@ -79,6 +81,13 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
     }
     if !answer.front.is_empty() {
         lines.push(Line { label: "front", text: front(answer) });
+    }
+    for at in answer.unmoving(best) {
+        let text = format!(
+            "{} moves nothing that is limited or made least beside this design",
+            asked.numbers[at].name
+        );
+        lines.push(Line { label: "no effect", text });
     }
     lines.push(Line { label: "search", text: searched(answer, best) });
     lines
@@ -163,14 +172,18 @@ pub(super) fn verdict(answer: &Answer, best: &Design) -> Line {
             ),
         },
         own => {
-            let text = match own {
-                // Limits are drawn in by one number for all of them.
+            // Limits are drawn in by one number for all of them.
+            let how = match own {
                 Some(own) => format!(
-                    "{name} {least} is the least found that keeps everything with a probability of {} or more",
+                    " found that keeps everything with a probability of {} or more",
                     percent(own.wanted, FEW)
                 ),
-                None => format!("{name} {least} is the least that keeps everything"),
+                None if best.runs.iter().any(|own| own.scatter.is_some()) => {
+                    " that keeps everything at the means of what has scatter: `--robust 95%` asks for more".to_owned()
+                }
+                None => " that keeps everything".to_owned(),
             };
+            let text = format!("{name} {least} is the least{how}");
             Line { label: "BEST", text }
         }
     }
@@ -196,6 +209,22 @@ fn borne_text(own: &Borne) -> String {
     )
 }
 
+/// A number of a design as people read it, and as they may write it again: rounded so that what holds it is kept.
+fn number_text(asked: &Asked, design: &Design, at: usize, value: f64) -> String {
+    let own = &asked.numbers[at];
+    let written = value / own.one;
+    let text = format!("{written:.*e}", DIGITS - 1);
+    let rounded: f64 = text.parse().unwrap_or(written);
+    let step = text.split_once('e').map_or("0", |own| own.1);
+    let step: f64 = format!("1e{step}").parse().unwrap_or(0.0) * LAST_DIGIT;
+    let towards = match design.safe_side(at) {
+        Some(Side::Low) if rounded > written => rounded - step,
+        Some(Side::High) if rounded < written => rounded + step,
+        _ => rounded,
+    };
+    own.text(towards * own.one, DIGITS)
+}
+
 /// A value of what is made least, as people read it.
 pub(super) fn aim_text(
     asked: &Asked,
@@ -204,6 +233,7 @@ pub(super) fn aim_text(
     digits: usize,
 ) -> String {
     match least {
+        Least::Number(at) if digits == DIGITS => number_text(asked, design, *at, value),
         Least::Number(at) => asked.numbers[*at].text(value, digits),
         Least::Step(at) => {
             let si = asked.among[*at].options.iter().flatten().next().map_or("", |own| &own.si);

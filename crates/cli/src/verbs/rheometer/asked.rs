@@ -61,13 +61,7 @@ pub(super) fn given<'a>(
         let values = values.map(|text| Ok((text, setting(name, text, expected)?)));
         Ok(Given { name, values: values.collect::<Result<_, CliError>>()? })
     };
-    let mut all: Vec<Given<'a>> = Vec::new();
-    for own in arguments.with.iter().map(read) {
-        let own: Given<'a> = own?;
-        all.retain(|before| before.name != own.name);
-        all.push(own);
-    }
-    Ok(all)
+    arguments.with.iter().map(read).collect()
 }
 
 /// The values of a parameter, as they are written and in SI units.

@@ -219,7 +219,10 @@ impl Words<'_> {
                     let restitution =
                         leaving.restitution.map_or(String::new(), |(value, error)| {
                             let digits = numbers::digits(value, error, TIME_DIGITS);
-                            format!(", coefficient of restitution {}", significant(value, digits))
+                            let value = significant(value, digits);
+                            // That of the element's ends may stand in the table besides.
+                            let of = if leaving.of_element { "" } else { " of its speed" };
+                            format!(", coefficient of restitution {value}{of}")
                         });
                     format!("; {} {how} at {text}{restitution}", leaving.impactor)
                 });
