@@ -216,14 +216,12 @@ pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
         _ => (Vec::new(), String::new()),
     };
     let unit = unknown.split(',').next().unwrap_or_default();
+    let is_scene = |own: &str| Path::new(own).extension().is_some_and(|own| own == "toml");
     let tip = if error.kind() == ErrorKind::UnknownArgument && is_unit(unit) {
         Some(unquoted_help(unit))
-    } else if error.kind() == ErrorKind::InvalidSubcommand && unknown.ends_with(".toml") {
+    } else if error.kind() == ErrorKind::InvalidSubcommand && is_scene(&unknown) {
         Some(format!("`dashpot run {unknown}` solves a scene"))
-    } else if Path::new(&word(ContextKind::InvalidValue))
-        .extension()
-        .is_some_and(|own| own == "toml")
-    {
+    } else if is_scene(&word(ContextKind::InvalidValue)) {
         Some("`--out FILE.toml` says which file is written".to_owned())
     } else if let Some(near) = nearest(&unknown, known.iter().map(String::as_str)) {
         Some(format!("did you mean `{near}`?"))
