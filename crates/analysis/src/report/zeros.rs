@@ -22,14 +22,24 @@ pub(crate) fn settle_zeros(measures: &mut [MeasureReport], turned_over: f64, rto
         let Some(value) = own.value else { continue };
         let of_energy = if own.unit == "J" { turned_over } else { 0.0 };
         let size = own.size.max(largest[own.kind]).max(of_energy);
-        let within = match own.error {
-            Some(error) if error <= SMALL * size => error,
-            Some(_) => 0.0,
-            None => rtol * own.size,
-        };
-        if value.abs() <= within.max(ROUNDING * size) {
-            own.value = Some(0.0);
-            own.error = own.error.map(|error| error + value.abs());
-        }
+        let (value, error) = settled(value, own.error, size, rtol * own.size);
+        (own.value, own.error) = (Some(value), error);
     }
+}
+
+/// A value of this size and its error: zero where it cannot be told from that, within its error or, where none is known,
+/// within `otherwise`.
+pub(crate) fn settled(
+    value: f64,
+    error: Option<f64>,
+    size: f64,
+    otherwise: f64,
+) -> (f64, Option<f64>) {
+    let within = match error {
+        Some(error) if error <= SMALL * size => error,
+        Some(_) => 0.0,
+        None => otherwise,
+    };
+    let is_zero = value.abs() <= within.max(ROUNDING * size);
+    if is_zero { (0.0, error.map(|error| error + value.abs())) } else { (value, error) }
 }

@@ -1,7 +1,7 @@
 //! What a test found, and how far the model object and an independent computation are apart.
 
 use super::{Note, Obstacle, simulation::Track};
-use crate::Column;
+use crate::{Column, report::zeros::settled};
 
 /// What a test of a model found: the same quantities from the model object in closed form, where it is
 /// linear, and from independent computations with the network of the model.
@@ -145,6 +145,25 @@ impl Figure {
     /// The same figure with the error of its computed value.
     pub(super) fn within(self, error: Option<f64>) -> Self {
         Self { error: error.filter(|error| error.is_finite()), ..self }
+    }
+
+    /// The same figures, zero where rounding, or an error that is small, hides what they are: of the size of the largest of
+    /// their unit, of pure numbers at least of 1.
+    pub(super) fn settled(mut all: Vec<Self>) -> Vec<Self> {
+        let size = |own: &Self| {
+            let alike = all.iter().filter(|other| other.unit == own.unit);
+            let values = alike.flat_map(|other| [other.model, other.computed]).flatten();
+            values
+                .fold(if own.unit == "1" { 1.0 } else { 0.0 }, |most: f64, own| most.max(own.abs()))
+        };
+        let sizes: Vec<f64> = all.iter().map(size).collect();
+        for (own, size) in all.iter_mut().zip(sizes) {
+            own.model = own.model.map(|value| settled(value, None, size, 0.0).0);
+            let computed = own.computed.map(|value| settled(value, own.error, size, 0.0));
+            (own.computed, own.error) =
+                computed.map_or((None, own.error), |own| (Some(own.0), own.1));
+        }
+        all
     }
 
     /// The same figure with the value of the first computation.

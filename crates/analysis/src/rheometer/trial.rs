@@ -130,7 +130,7 @@ impl<'a> Trial<'a> {
             settings,
             abscissa: Column { name: "time".to_owned(), unit: "s", values: self.times.clone() },
             drive: Some(Column { name: name.to_owned(), unit, values }),
-            figures,
+            figures: Figure::settled(figures),
             series: vec![series],
             computations: self.simulations.iter().map(computation).collect(),
             notes: Vec::new(),

@@ -8,8 +8,8 @@ use super::{USUAL_DEFORMATION, USUAL_POINTS, deforms, points_used, setting};
 use crate::{
     Choice, Column, Stop,
     rheometer::{
-        Computation, FROM_THE_MODEL, Note, ProtocolKind, RheometerError, RheometerReport, Setting,
-        Specimen, Tested,
+        Computation, FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport,
+        Setting, Specimen, Tested,
         answer::Drive,
         cycle::{Cycle, Loop, Simulated},
         history::{self, History, Instant},
@@ -159,7 +159,7 @@ impl LoadUnload {
             }),
             abscissa: Column { name: "time".to_owned(), unit: "s", values: times },
             series: vec![force],
-            figures,
+            figures: Figure::settled(figures),
             notes: is_sudden.then_some(Note::NothingBack).into_iter().collect(),
         }
     }

@@ -13,8 +13,6 @@ use crate::{
 
 /// Digits of what is measured.
 const DIGITS: usize = 6;
-/// Smaller values, relative to others of their unit, are what rounding leaves of zero.
-const NOISE: f64 = 1e-13;
 /// Digits of settings that follow from the model.
 const CHOSEN_DIGITS: usize = 4;
 /// More lines of a spectrum are only counted.
@@ -82,10 +80,8 @@ pub(super) fn figure_table(figures: &[Figure], units: Units) -> Table {
     let has_computed = is(|own| own.computed.is_some());
     let rows = figures.iter().filter(|figure| figure.note.is_none()).map(|figure| {
         let mut row = vec![units.label(figure.name)];
-        row.extend(has_model.then(|| value(figures, figure, figure.model, None, units)));
-        row.extend(
-            has_computed.then(|| value(figures, figure, figure.computed, figure.error, units)),
-        );
+        row.extend(has_model.then(|| value(figure, figure.model, None, units)));
+        row.extend(has_computed.then(|| value(figure, figure.computed, figure.error, units)));
         row.extend(has_error.then(|| error(figure, units)));
         row
     });
@@ -106,8 +102,8 @@ pub(super) fn side_by_side(tests: &[Made], common: usize, units: Units) -> Table
             let Some(figure) = own.get(at) else { return String::new() };
             match (figure.note, figure.computed) {
                 (Some(_), _) => "–".to_owned(),
-                (None, Some(_)) => value(own, figure, figure.computed, figure.error, units),
-                (None, None) => value(own, figure, figure.model, None, units),
+                (None, Some(_)) => value(figure, figure.computed, figure.error, units),
+                (None, None) => value(figure, figure.model, None, units),
             }
         };
         [units.label(name)].into_iter().chain(all.iter().map(cell)).collect()
@@ -117,20 +113,8 @@ pub(super) fn side_by_side(tests: &[Made], common: usize, units: Units) -> Table
 }
 
 /// A value of a figure, with the digits that its error justifies; none where there is none.
-fn value(
-    figures: &[Figure],
-    own: &Figure,
-    value: Option<f64>,
-    error: Option<f64>,
-    units: Units,
-) -> String {
+fn value(own: &Figure, value: Option<f64>, error: Option<f64>, units: Units) -> String {
     let Some(value) = value else { return String::new() };
-    let same = figures.iter().filter(|figure| figure.unit == own.unit);
-    let sizes = same.flat_map(|figure| [figure.model, figure.computed]).flatten().map(f64::abs);
-    let scale = sizes.fold(0.0_f64, f64::max);
-    // What rounding or the error leaves of a zero is none of the figure's.
-    let floor = (NOISE * scale).max(error.unwrap_or(0.0));
-    let value = if value.abs() <= floor { 0.0 } else { value };
     let shown = if error.is_some() { digits(value, error, DIGITS) } else { DIGITS };
     in_unit(value, units.of(own.unit), shown)
 }
