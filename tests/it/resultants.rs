@@ -430,6 +430,55 @@ fn codes_of_iso_mme_tell_the_axes_whatever_their_rates_are() {
 }
 
 #[test]
+fn an_axis_of_two_channels_keeps_no_limit() {
+    let folder = TempDir::new().unwrap();
+    let two = |names: &[&str], heights: Vec<f64>| {
+        let text = axes(names, 5.0, &|_| heights.clone());
+        write(&folder, "two.csv", &text)
+    };
+    // 200 and 180 g of two sensors on one axis, and 170 g across: 263 or 248 g.
+    let names = ["Head X", "Head Y", "Head X 2", "Head Z"];
+    let path = two(&names, vec![200.0, 170.0, 180.0, 20.0]);
+    let all = json(&["signal", &path, "--json"]);
+    let found: Vec<&str> = all["channels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|own| own["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(found, names);
+    for name in names {
+        let own = channel(&all, name);
+        assert_eq!(own["warnings"][0]["code"], "axis-twice", "{own}");
+        assert_eq!(own["beside"].as_array().unwrap().len(), 3, "{own}");
+        let (status, found) =
+            judged(&["signal", &path, "--limit", &format!("{name}.peak=en-1078")]);
+        assert_eq!(
+            (status, &*found[0].1, &*found[0].2),
+            (4, "undecided", "other-axes"),
+            "{found:?}"
+        );
+    }
+    // Alone as well, whichever way the number is written; what is named is judged.
+    for name in ["Head X 2", "Head X2", "Head_X_2"] {
+        let path = two(&["Head X", name], vec![300.0, 200.0]);
+        let (_, found) = judged(&["signal", &path, "--limit", &format!("{name}.peak=en-1078")]);
+        assert_eq!((&*found[0].1, &*found[0].2), ("undecided", "other-axes"), "{name}: {found:?}");
+    }
+    let named = ["Head X 2", "Head Y", "Head Z"].map(|own| ["--channel", own]).concat();
+    let path = two(&names, vec![200.0, 170.0, 180.0, 20.0]);
+    let own = [&["signal", &*path, "--limit", "Head.peak=en-1078"], &named[..]].concat();
+    let (status, found) = judged(&own);
+    assert_eq!((status, &*found[0].1), (0, "pass"), "{found:?}");
+    // Two sensors of three axes each are two places.
+    let six = ["A X 1", "A Y 1", "A Z 1", "A X 2", "A Y 2", "A Z 2"];
+    let all = json(&["signal", &two(&six, vec![10.0, 20.0, 20.0, 20.0, 30.0, 60.0]), "--json"]);
+    let peak = |name: &str| measure(&all, name, "peak").0 / STANDARD_GRAVITY;
+    assert!((peak("A 1 resultant") - 30.0).abs() < 0.1, "{all}");
+    assert!((peak("A 2 resultant") - 70.0).abs() < 0.1, "{all}");
+}
+
+#[test]
 fn a_clipped_record_keeps_no_limit() {
     let folder = TempDir::new().unwrap();
     let text = axes(&["Kopf"], 5.0, &|_| vec![300.0]);

@@ -225,3 +225,59 @@ fn what_has_no_end_is_not_waited_for() {
         assert_eq!(code(&output), 2, "{args:?}: {}", out(&output));
     }
 }
+
+#[test]
+fn what_is_written_wrongly_is_told_with_what_to_write() {
+    let folder = TempDir::new().unwrap();
+    let path = file(&folder, "a.csv", &table(&[("acc [g]", 100.0)]));
+    let path = path.to_str().unwrap();
+    let told = |args: &[&str]| {
+        let output = run(&[&["signal", path], args].concat());
+        (code(&output), err(&output).split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let (status, text) = told(&["--offset", "yes"]);
+    assert!(status == 2 && text.contains("neither `auto` nor a value"), "{text}");
+    let (status, text) = told(&["--filter", "200 Hz"]);
+    assert!(status == 2 && text.contains("write 60, 180, 600 or 1000"), "{text}");
+}
+
+/// A magnitude that was recorded is integrated as if all of it slowed the body down.
+#[test]
+fn what_no_impact_does_is_a_warning_wherever_it_is_told() {
+    let folder = TempDir::new().unwrap();
+    let mut text = "t [ms],|a| [g]\n".to_owned();
+    for at in 0..800 {
+        let time = 0.05 * f64::from(at) - 10.0;
+        let own = if time > 0.0 { 80.0 * (0.6 * time).sin().abs() } else { 0.0 };
+        writeln!(text, "{time:.2},{own:.6}").unwrap();
+    }
+    let path = file(&folder, "a.csv", &text);
+    let (path, pages) = (path.to_str().unwrap(), folder.path().join("out"));
+    let output = run(&[
+        "signal",
+        path,
+        "--velocity",
+        "4 m/s",
+        "--mass",
+        "5 kg",
+        "--out",
+        pages.to_str().unwrap(),
+    ]);
+    let text = out(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.starts_with("! ") && text.contains("which no impact does"), "{text}");
+    let page = fs::read_to_string(pages.join("report.html")).unwrap();
+    assert!(page.contains("which no impact does"));
+    let result = fs::read_to_string(pages.join("result.json")).unwrap();
+    assert!(result.contains("\"gains-energy\""));
+    // The same beside a run.
+    let scene = "[nodes]\nhead = { mass = \"5 kg\", velocity = \"4 m/s\" }\n[elements]\n\
+                 pad = { between = [\"head\", \"ground\"], spring = \"60 kN/m\" }\n\
+                 [effects]\nseparation.pad = {}\n[run]\nduration = \"40 ms\"\n";
+    let scene = file(&folder, "pad.toml", scene);
+    let measured = format!("{path}:head.acceleration");
+    let args = ["run", scene.to_str().unwrap(), "--measured", &measured];
+    let output = run(&args);
+    assert!(out(&output).contains("which no impact"), "{}", out(&output));
+    let own = crate::cli::json(&[&args[..], &["--json"]].concat());
+    assert!(own.to_string().contains("gains-energy"), "{own}");
+}

@@ -94,7 +94,8 @@ impl Places {
             Some(code) => Some((Place::of_code(code)?, true)),
             None => Place::of_name(own.name),
         };
-        let found: Vec<Option<(Place, bool)>> = labels.iter().map(of_one).collect();
+        let mut found: Vec<Option<(Place, bool)>> = labels.iter().map(of_one).collect();
+        Place::number(&mut found, labels);
         let is_beside = |own: &Place| {
             found.iter().flatten().any(|other| own.is_beside(&other.0) && own.axis != other.0.axis)
         };
@@ -161,6 +162,33 @@ impl Place {
             key: before.to_lowercase(),
             class: class.chars().next(),
         })
+    }
+
+    /// Sets places of names that end in a number: of several sensors at one location each has a number, and axes of its
+    /// own; a number that one axis alone has tells it from another sensor of that axis.
+    fn number(found: &mut [Option<(Self, bool)>], labels: &[Label<'_>]) {
+        let split = |label: &Label<'_>| {
+            let bare = label.name.trim_end_matches(|own: char| own.is_ascii_digit());
+            let number = label.name[bare.len()..].to_owned();
+            let has_code = label.code.is_some_and(|own| own.direction().is_some());
+            let is_one = !(number.is_empty() || has_code || is_code(label.name));
+            Some((Self::of_name(bare).filter(|_| is_one)?, number))
+        };
+        let all: Vec<_> = labels.iter().map(split).collect();
+        for (place, own) in found.iter_mut().zip(&all) {
+            let Some(((bare, is_sure), number)) = own else { continue };
+            let is_triad = all.iter().flatten().any(|((other, _), of)| {
+                of == number && bare.is_beside(other) && bare.axis != other.axis
+            });
+            *place = Some((if is_triad { bare.numbered(number) } else { bare.clone() }, *is_sure));
+        }
+    }
+
+    /// The same of the sensor of this number.
+    fn numbered(&self, number: &str) -> Self {
+        let location = format!("{} {number}", self.location).trim_start().to_owned();
+        let resultant = format!("{location} resultant");
+        Self { resultant, location, key: format!("{}\n{number}", self.key), ..self.clone() }
     }
 
     /// That of a name, and whether it is one for certain.

@@ -161,10 +161,9 @@ impl Channel {
         }
     }
 
-    /// The resolution of its values: the smallest difference of two that are not the same, where the curve is as rough
-    /// as that and most differences are multiples of it; 0 where it is smoother, or has a few values alone, which tell
-    /// nothing of a resolution.
-    pub fn resolution(&self) -> f64 {
+    /// The step in which its values are written: the smallest difference of two that are not the same, where most
+    /// differences are multiples of it; 0 where they are not, or where a few values tell nothing.
+    pub(crate) fn step(&self) -> f64 {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);
         let rounding = NOISE * self.largest().1;
@@ -173,12 +172,18 @@ impl Channel {
         let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
         let is_multiple = |step: &&f64| (*step / least - (*step / least).round()).abs() < MULTIPLE;
         let multiples = steps.iter().filter(is_multiple).count();
-        let bends = self.values.windows(3).map(|own| (own[2] - 2.0 * own[1] + own[0]).abs());
-        let rough = bends.filter(|bend| *bend > 0.5 * least).count() as f64;
-        let changes = self.values.windows(2).filter(|own| (own[1] - own[0]).abs() > rounding);
-        let is_rough = rough > ROUGH * changes.count() as f64;
         let is_stepped = multiples as f64 > STEPPED * steps.len() as f64;
-        if steps.len() >= FEW_VALUES && is_rough && is_stepped { least } else { 0.0 }
+        if steps.len() >= FEW_VALUES && is_stepped { least } else { 0.0 }
+    }
+
+    /// The resolution of its values: the step in which they are written where the curve is as rough as that; 0 where it is
+    /// smoother.
+    pub fn resolution(&self) -> f64 {
+        let (step, rounding) = (self.step(), NOISE * self.largest().1);
+        let bends = self.values.windows(3).map(|own| (own[2] - 2.0 * own[1] + own[0]).abs());
+        let rough = bends.filter(|bend| *bend > 0.5 * step).count() as f64;
+        let changes = self.values.windows(2).filter(|own| (own[1] - own[0]).abs() > rounding);
+        if rough > ROUGH * changes.count() as f64 { step } else { 0.0 }
     }
 
     /// The same with other values, as many as it has.

@@ -2,12 +2,17 @@
 
 use dashpot_units::Dimension;
 
-use crate::{Channel, Measure, Motion, Reading, Reason};
+use crate::{Channel, Measure, Motion, Noise, Reading, Reason};
 
 /// So many equal samples in a row are no chance.
 pub(crate) const EQUAL: usize = 3;
-/// What stands out of equal samples by so many steps of resolution is no slope of a coarse curve.
-const COARSE_STEPS: f64 = 4.0;
+/// Noise on the end of a range stays within so many of its standard deviations, and shows on so many samples.
+const DEVIATIONS: f64 = 6.0;
+const NOISY: usize = 6;
+/// The part of its length behind which a clipped stretch has been left by so many times what it varies by: a top that is as
+/// flat as a sixth power leaves its own by less.
+const BESIDE: usize = 8;
+const LEFT: f64 = 3.0;
 
 /// What a value says of the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -32,23 +37,52 @@ impl Truth {
     }
 }
 
-/// Runs of equal samples of which both neighbours differ by more than the resolution: first sample and length.
-pub(crate) fn runs(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let values = channel.values();
-    let slope = COARSE_STEPS * channel.resolution();
-    let chunks = values.chunk_by(|one, other| one.total_cmp(other).is_eq());
-    let starts = chunks.scan(0, |at, chunk| {
+/// First sample and length of each stretch in which neighbours are alike.
+fn alike<'v>(
+    values: &'v [f64],
+    is_alike: impl Fn(&f64, &f64) -> bool + 'v,
+) -> impl Iterator<Item = (usize, usize)> + 'v {
+    values.chunk_by(is_alike).scan(0, |at, chunk| {
         let start = *at;
         *at += chunk.len();
         Some((start, chunk.len()))
-    });
-    starts.filter(move |&(start, length)| {
+    })
+}
+
+/// Runs of equal samples that no parabola explains whose values were rounded to the step in which they are written:
+/// first sample and length. Within `n` samples it changes by less than a step, and from there to the neighbours by less
+/// than `((n + 1)/(n − 1))²` of them, but for rounding.
+pub(crate) fn runs(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let (values, step) = (channel.values(), channel.step());
+    let equal = alike(values, |one, other| one.total_cmp(other).is_eq());
+    equal.filter(move |&(start, length)| {
+        let wider = (length + 1) as f64 / length.saturating_sub(1) as f64;
         let stands_out = |neighbour: Option<&f64>| {
-            neighbour.is_none_or(|own| (own - values[start]).abs() > slope)
+            neighbour.is_none_or(|own| (own - values[start]).abs() > (1.0 + wider * wider) * step)
         };
         let before = start.checked_sub(1).and_then(|at| values.get(at));
         let is_part = length >= EQUAL && length < values.len();
         is_part && stands_out(before) && stands_out(values.get(start + length))
+    })
+}
+
+/// Stretches that stay at the largest magnitude of a channel within its noise, and begin and end with a corner: first
+/// sample and length.
+fn plateaus(channel: &Channel) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let (values, peak) = (channel.values(), channel.largest().1);
+    let band = DEVIATIONS * Noise::of(channel, None, None).deviation + channel.step();
+    let is_top = move |own: &f64| own.abs() >= peak - band;
+    let is_alike = move |one: &f64, other: &f64| is_top(one) == is_top(other) && one * other > 0.0;
+    alike(values, is_alike).filter(move |&(start, length)| {
+        let is_left = |at: Option<usize>| {
+            let beside = at.and_then(|at| values.get(at));
+            beside.is_some_and(|own| own.abs() < peak - (1.0 + LEFT) * band)
+        };
+        let reach = length.div_ceil(BESIDE);
+        length >= NOISY
+            && is_top(&values[start])
+            && is_left(start.checked_sub(reach))
+            && is_left(Some(start + length - 1 + reach))
     })
 }
 
@@ -62,11 +96,13 @@ pub fn clipped_rows(rows: &[(f64, f64)]) -> usize {
     rows.iter().filter(is_clipped).count()
 }
 
-/// The stretches \[s\] in which a record is at the end of the range of a sensor or amplifier: runs at its largest magnitude.
+/// The stretches \[s\] in which a record is at the end of the range of a sensor or amplifier: at its largest magnitude,
+/// to the bit or within noise that was added behind it.
 pub(crate) fn stretches(raw: &Channel) -> Vec<(f64, f64)> {
     let (times, peak) = (raw.times(), raw.largest().1);
-    let all = runs(raw).filter(|own| raw.values()[own.0].abs() >= peak);
-    all.map(|(start, length)| (times[start], times[start + length - 1])).collect()
+    let equal: Vec<_> = runs(raw).filter(|own| raw.values()[own.0].abs() >= peak).collect();
+    let all = if equal.is_empty() { plateaus(raw).collect() } else { equal };
+    all.into_iter().map(|(start, length)| (times[start], times[start + length - 1])).collect()
 }
 
 /// What is clipped of a channel as it is read.

@@ -5,7 +5,7 @@ use dashpot_units::{Dimension, percent, quantity, si_unit};
 use thiserror::Error;
 
 use crate::{
-    Analysis, Axis, Cfc, Channel, Part, Removal,
+    Analysis, Axis, Cfc, Channel, Measure, Part, Removal, Truth,
     clipping::{EQUAL, runs},
 };
 
@@ -21,6 +21,8 @@ const ACCELERATIONS: (f64, f64) = (0.5 * STANDARD_GRAVITY, 2e4 * STANDARD_GRAVIT
 const LENGTHS: (f64, f64) = (2e-5, 2.0);
 /// The standards want a sampling rate of so many times the class of a filter.
 const LEAST_RATE: f64 = 10.0;
+/// Rounding of an energy, in parts of it.
+const ROUNDING: f64 = 1e-9;
 /// Digits of numbers in messages.
 const DIGITS: usize = 3;
 
@@ -105,14 +107,23 @@ pub enum Defect {
     /// A length of a pulse that no impact test has: the unit of time may be another.
     #[error("a pulse of {} is none of an impact: is the unit of time right?", seconds(*.length))]
     OddLength { length: f64 },
+    /// A body that comes back faster than it came, or from which more energy comes than was taken.
+    #[error(
+        "{}, which no impact does: what is integrated is a magnitude or has the wrong sign, or the impact begins elsewhere \
+         or at another velocity",
+        .restitution.map_or("gives back more energy than it takes".to_owned(), |own| format!(
+            "comes back with {} times the velocity with which it came", dashpot_units::significant(own, DIGITS)
+        ))
+    )]
+    GainsEnergy { restitution: Option<f64> },
     /// An axis beside others that went through another filter class, so that they have no resultant.
     #[error(
         "went through another filter class than other axes of its location, and is no part of their resultant"
     )]
     OtherFilter,
-    /// An axis of which there are two channels, so that it is not clear which one is part of the resultant.
+    /// Axes of a location one of which has two channels, so that it is not clear which one is part of the resultant.
     #[error(
-        "is one of two channels of the same axis: no resultant is formed; `--channel` names one of each axis"
+        "is an axis, or beside one, that has two channels: no resultant is formed; `--channel` names one of each axis"
     )]
     AxisTwice,
     /// An axis whose times, or whose peak, are not within those of the others.
@@ -142,6 +153,7 @@ impl Defect {
             Self::OddClass { .. } => "odd-class",
             Self::OddPeak { .. } => "odd-peak",
             Self::OddLength { .. } => "odd-length",
+            Self::GainsEnergy { .. } => "gains-energy",
             Self::OtherFilter => "other-filter",
             Self::AxisTwice => "axis-twice",
             Self::AxesApart => "axes-apart",
@@ -189,7 +201,23 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     }
     all.extend(of_pulse(own, peak, unit));
     all.extend(of_filter(own));
+    all.extend(gain(own));
     all
+}
+
+/// Energy that an impact would have made.
+pub(crate) fn gain(own: &Analysis) -> Option<Defect> {
+    let beyond = |measure: Measure, sign: f64| {
+        let reading = own.reading(measure)?;
+        let value = reading.value.ok().filter(|_| reading.truth == Truth::Within)?;
+        Some((value, sign * value - reading.error))
+    };
+    let restitution = beyond(Measure::Restitution, 1.0).filter(|own| own.1 > 1.0 + ROUNDING);
+    let restitution = restitution.map(|own| own.0);
+    let absorbed = beyond(Measure::EnergyAbsorbed, -1.0);
+    let taken = own.reading(Measure::EnergyTaken).and_then(|own| own.value.ok()).unwrap_or(0.0);
+    let is_gain = absorbed.is_some_and(|own| own.1 > ROUNDING * taken.abs());
+    (is_gain || restitution.is_some()).then_some(Defect::GainsEnergy { restitution })
 }
 
 /// What is clipped of a channel of its own, or of the axes of a resultant.

@@ -92,11 +92,14 @@ impl Analysis {
         resultants
     }
 
-    /// Tells of some axes that others of their location form no resultant with them.
+    /// Tells of some axes that others of their location, and of two channels of one axis the other one, form no resultant
+    /// with them.
     fn leave_apart(all: &mut [Self], some: &[usize], others: &[usize], defect: Option<Defect>) {
+        let is_twice = defect == Some(Defect::AxisTwice);
         for at in some {
             let axes = all[*at].part.axes();
-            let others = others.iter().filter(|own| all[**own].part.axes() != axes);
+            let is_other = |own: &&usize| is_twice && *own != at || all[**own].part.axes() != axes;
+            let others = others.iter().filter(is_other);
             let names: Vec<String> =
                 others.map(|own| all[*own].channel.name().to_owned()).collect();
             all[*at].beside.extend(names);

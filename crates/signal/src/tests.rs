@@ -5,6 +5,7 @@ use dashpot_units::Dimension;
 
 use super::*;
 
+mod clipping;
 mod hic;
 
 /// A pulse over its own length and height: shape, HIC in parts of `A^2.5 T`, integral, severity index.

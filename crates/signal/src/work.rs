@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
-use crate::{Analysis, Impact, Measure, Reading, Truth, Uncertainty, sampling::Sampling};
+use crate::{
+    Analysis, Impact, Measure, Reading, Truth, Uncertainty, defects::gain, sampling::Sampling,
+};
 
 /// What an impact does to a pad: the loop of force over displacement.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,6 +127,8 @@ impl Analysis {
         self.readings.retain(|own| all.iter().all(|other| other.measure != own.measure));
         self.readings.extend(all);
         self.work = Some(work);
+        let gain = gain(self).filter(|own| !self.defects.contains(own));
+        self.defects.extend(gain);
         Ok(())
     }
 }

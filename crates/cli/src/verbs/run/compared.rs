@@ -5,7 +5,9 @@ use dashpot_dae::Signal;
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::{Of, Table};
 use dashpot_scene::Scene;
-use dashpot_signal::{Analysis, Approach, Channel, Rating, Reading, Settings, Truth, Unrated};
+use dashpot_signal::{
+    Analysis, Approach, Channel, Defect, Rating, Reading, Settings, Truth, Unrated,
+};
 use serde::Serialize;
 
 use super::{
@@ -16,7 +18,7 @@ use crate::{
     numbers::{percent_signed, quantity},
     output::{Pairs, list},
     verbs::signal::{
-        object::ReadingObject,
+        object::{ReadingObject, WarningObject},
         words::{shown, unit_of},
     },
 };
@@ -151,6 +153,18 @@ pub(super) fn remark(all: &[Compared<'_>]) -> Option<String> {
     }
 }
 
+/// What is impossible of what is read of a measured curve.
+fn impossible(own: &Numbers) -> impl Iterator<Item = &Defect> {
+    own.measured.defects.iter().filter(|own| matches!(own, Defect::GainsEnergy { .. }))
+}
+
+/// The same in words.
+pub(super) fn impossible_words(all: &[Compared<'_>]) -> Option<String> {
+    let first = all.first()?;
+    let defect = impossible(first.beside.numbers.as_ref()?).next()?;
+    Some(format!("{}: what was measured {defect}", first.curve.file))
+}
+
 /// Whether a value is zero within its error.
 fn is_zero(value: f64, reading: &Reading) -> bool {
     value.abs() <= reading.error
@@ -212,6 +226,7 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
 #[derive(Serialize)]
 pub(super) struct Told {
     measures: Pairs<&'static str, ToldReading>,
+    warnings: Vec<WarningObject>,
     rating: Option<ToldRating>,
     unrated: Option<&'static str>,
 }
@@ -249,6 +264,7 @@ impl Told {
         };
         Self {
             measures: numbers.iter().flat_map(|own| own.readings()).map(one).collect(),
+            warnings: list(numbers.into_iter().flat_map(impossible).map(WarningObject::of)),
             rating: rating.and_then(Result::ok).map(|scores| ToldRating {
                 overall: scores.overall(),
                 grade: scores.grade(),

@@ -156,9 +156,10 @@ pub(super) fn remarks(all: &[Compared<'_>]) -> Vec<String> {
         )
     });
     list(
-        [Some(place), filter, opposed, compared::remark(all), curve.note.clone()]
+        [Some(place), filter, opposed, compared::impossible_words(all), compared::remark(all)]
             .into_iter()
-            .flatten(),
+            .flatten()
+            .chain(curve.note.clone()),
     )
 }
 

@@ -63,7 +63,7 @@ pub(crate) struct SignalArguments {
     #[arg(long)]
     invert: bool,
     /// Filters by a channel frequency class of SAE J211: 60, 180, 600 or 1000.
-    #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
+    #[arg(long, value_name = "CLASS", alias = "filter", value_parser = frequency_class)]
     cfc: Option<Cfc>,
     /// What stands beyond the ends of the record for the filter.
     #[arg(long, value_name = "MODE", default_value = "odd", requires = "cfc", value_parser = paddings())]
@@ -197,6 +197,10 @@ impl SignalArguments {
         Ok(match self.offset.as_deref().map(str::trim) {
             None => Removal::Nothing,
             Some("auto") => Removal::Found,
+            Some(text) if !text.contains(|own: char| own.is_ascii_digit()) => {
+                let reason = format!("`{text}` is neither `auto` nor a value, such as \"0.3 g\"");
+                return Err(CliError::setting("--offset", reason));
+            }
             Some(text) => Removal::Given(setting("--offset", text, dimension)?),
         })
     }

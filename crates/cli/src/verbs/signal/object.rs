@@ -1,7 +1,7 @@
 //! Channels as objects for programs.
 
 use dashpot_analysis::Bound;
-use dashpot_signal::{Axis, Cfc, Part, Reading, Reason, Removal, Repeated};
+use dashpot_signal::{Axis, Cfc, Defect, Part, Reading, Reason, Removal, Repeated};
 use dashpot_units::{Dimension, si_unit};
 use serde::Serialize;
 
@@ -63,10 +63,20 @@ fn channel(signal: &Signal) -> impl Serialize {
             Removal::Given(_) => "given",
         },
         measures,
-        warnings: list(own.defects.iter().map(|own| object! {
-            code: own.code(),
-            text: own.to_string(),
-        })),
+        warnings: list(own.defects.iter().map(WarningObject::of)),
+    }
+}
+
+/// What is wrong with a channel.
+#[derive(Serialize)]
+pub(in crate::verbs) struct WarningObject {
+    code: &'static str,
+    text: String,
+}
+
+impl WarningObject {
+    pub(in crate::verbs) fn of(own: &Defect) -> Self {
+        Self { code: own.code(), text: own.to_string() }
     }
 }
 
