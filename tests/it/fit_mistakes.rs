@@ -123,12 +123,55 @@ fn a_zero_that_rows_before_the_impact_contradict_is_told() {
     let range = ["--vary", "K=5..5000 kN/m"];
     let (status, text) = folder.fit("other.csv:acc=head.acceleration", &range);
     assert_eq!(status, 0, "{text}");
-    let told = "rows before the impact read 0 m/s² where nothing happens, and the fitted zero is ";
+    let told = "rows before the impact read 0 g where nothing happens, and the fitted zero is ";
     assert!(text.contains(told), "{text}");
     assert!(text.contains("not identified") && !text.contains('±'), "{text}");
     fs::write(folder.0.path().join("pad.toml"), SCENE).unwrap();
     let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &range);
     assert!(!text.contains("the fitted zero is"), "{text}");
+}
+
+#[test]
+fn a_scale_turns_the_sign_of_a_column() {
+    let folder = Folder::new();
+    let range = ["--vary", "K=5..500 kN/m", "--json"];
+    let fitted = |to: &str| {
+        let (status, text) = folder.fit(to, &range);
+        assert_eq!(status, 0, "{text}");
+        let end = text.rfind('}').map_or(0, |at| at + 1);
+        serde_json::from_str::<Value>(&text[..end]).unwrap()["parameters"]["K"].clone()
+    };
+    let right = fitted("drop.csv:acc=head.acceleration");
+    assert_eq!(fitted("turned.csv:acc=head.acceleration,scale=-1"), right);
+    let (status, text) = folder.fit("turned.csv:acc=head.acceleration,scale=x", &range);
+    assert!(status == 2 && text.contains("a scale is a number"), "{text}");
+    // Of a model alone the answer is scaled, and not what was done.
+    let alone = |to: &str| fitted_stiffness(&folder, to);
+    let [one, other] = ["fast.csv:force=pad", "fast.csv:force=pad,scale=2"].map(alone);
+    assert!((other / one - 2.0).abs() < 1e-6, "{one} {other}");
+}
+
+fn fitted_stiffness(folder: &Folder, to: &str) -> f64 {
+    let own = crate::cli::json(&["fit", "--to", &folder.at(to), "--json"]);
+    own["spring"].as_f64().unwrap()
+}
+
+#[test]
+fn a_table_in_the_place_of_a_scene_is_told() {
+    let folder = Folder::new();
+    for verb in ["fit", "run", "check"] {
+        let found = run(&[verb, &folder.at("drop.csv")]);
+        let text = err(&found);
+        assert!(code(&found) == 2 && text.contains("it is a table"), "{text}");
+        assert!(text.contains("--to") && !text.contains("TOML parse"), "{text}");
+    }
+}
+
+#[test]
+fn accelerations_are_in_one_unit() {
+    let folder = Folder::new();
+    let (_, text) = folder.fit("drop.csv:acc=head.acceleration", &["--vary", "K=5..500 kN/m"]);
+    assert!(text.contains(" g ") && !text.contains("m/s²") && !text.contains("m/s^2"), "{text}");
 }
 
 #[test]

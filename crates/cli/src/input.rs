@@ -23,6 +23,11 @@ use crate::{
 const MAX_BYTES: u64 = 64 << 20;
 /// What is said of pipes and devices.
 const NO_FILE: &str = "it is no regular file";
+/// Endings of tables, and what is said of one in the place of a scene.
+const TABLES: [&str; 4] = ["csv", "tsv", "dat", "xlsx"];
+const NO_SCENE: &str = "it is a table, and a scene or model (TOML) is wanted here; options name tables, as \
+                        `--to \"drop.csv:force=pad.force\"` of `fit` or `--measured drop.csv` of `run`, and \
+                        `dashpot signal` reads one alone";
 /// Whether numbers without a unit are refused.
 static IS_STRICT: AtomicBool = AtomicBool::new(false);
 /// Name of the built-in scene.
@@ -71,7 +76,13 @@ impl Input {
         Ok(Self { file: file.to_owned(), bytes })
     }
 
+    /// The text of a scene or model.
     pub(crate) fn text(&self) -> Result<&str, CliError> {
+        let ending = Path::new(&self.file).extension().and_then(|own| own.to_str());
+        if ending.is_some_and(|own| TABLES.contains(&&*own.to_lowercase())) {
+            let (name, reason) = (self.file.clone(), NO_SCENE.to_owned());
+            return Err(CliError::Unreadable { name, reason, similar: None });
+        }
         text_of_bytes(&self.bytes, Some(&self.file)).map_err(CliError::Scene)
     }
 

@@ -8,6 +8,7 @@ use super::{
     problem::Problem,
     spectrum::Spectrum,
 };
+use crate::nnls::Minimum;
 
 /// Square of the number of standard deviations of a two-sided 95 % interval.
 const CHI_SQUARE: f64 = 3.841_458_820_694_124;
@@ -92,10 +93,19 @@ pub(super) enum End {
     Sum,
 }
 
-/// The largest sum of squares that noise explains.
-pub(super) fn tolerated(problem: &Problem, residual: &DVector<f64>) -> f64 {
-    let independent = independent_share(problem, residual) * problem.rows() as f64;
-    residual.norm_squared() * (1.0 + CHI_SQUARE / independent.max(1.0))
+/// The 95 % quantile of what a bound on strengths lets the sum of squares rise by where one number is held at its truth, in
+/// variances of the noise: those that are zero in the nearest network become free as it is moved, so that it is more
+/// than that of one degree of freedom (about 3.8). That of two holds it.
+///
+/// Source: P. Batlle, P. Patil, M. Stanley, H. Owhadi, M. Kuusela, arXiv 2310.02461 (2023), which refutes the conjecture of
+/// Burrus that one degree of freedom suffices.
+const RISE: f64 = 5.991_464_547_107_98;
+
+/// The largest sum of squares that noise explains, where the nearest network leaves least.
+pub(super) fn tolerated(problem: &Problem, nearest: &Minimum) -> f64 {
+    let rows = problem.rows() as f64 * independent_share(problem, &nearest.residual);
+    let free = rows - nearest.passive().len() as f64;
+    nearest.residual.norm_squared() * (1.0 + RISE / free.max(1.0))
 }
 
 /// The range of an end within a sum of squares; `None` where no network stays within it.

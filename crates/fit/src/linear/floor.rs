@@ -59,17 +59,6 @@ impl Dense {
         self.problem.minimum(&[])
     }
 
-    /// All terms that a minimum has.
-    pub(super) fn every_term(&self, minimum: &Minimum) -> Spectrum {
-        let all = self.terms.iter().zip(&minimum.values).filter(|own| *own.1 > 0.0);
-        let branches = all.filter_map(|(term, value)| match term {
-            Term::Branch(time) => Some((*time, *value)),
-            Term::Spring | Term::Dashpot => None,
-        });
-        let branches = branches.collect();
-        Spectrum { spring: minimum.values[SPRING], dashpot: minimum.values[DASHPOT], branches }
-    }
-
     /// The terms that a minimum has, those that are next to each other on the grid as one.
     pub(super) fn spectrum(&self, minimum: &Minimum) -> Spectrum {
         let mut branches: Vec<(f64, f64)> = Vec::new();

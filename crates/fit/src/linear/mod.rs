@@ -19,7 +19,7 @@ use self::{
     bound::lower_bound,
     branches::fewest,
     certainty::{End, bands},
-    floor::{Dense, Nearest},
+    floor::Nearest,
     outliers::{may_be_left_out, outliers},
     problem::Problem,
 };
@@ -81,7 +81,8 @@ pub enum LinearFault {
     },
     /// All strengths are zero.
     #[error(
-        "no passive network answers with this sign: is compression, or tension, positive in both columns?"
+        "no passive network answers with this sign: is compression, or tension, positive in both columns? `scale=-1` behind the \
+         comma turns what answered"
     )]
     NoAnswer,
     /// A solid without a spring.
@@ -134,7 +135,7 @@ pub struct LinearFit {
     pub spring: Range,
     /// Instantaneous modulus, or compliance when all has crept, likewise.
     pub sum: Range,
-    /// The slowest branch of which the records show most \[s\].
+    /// The slowest branch that these ranges allow for \[s\]: ten times the longest time of the records.
     pub slowest: f64,
     /// Between which times the branches are \[s\]: rows determine none that are faster or slower.
     pub limits: (f64, f64),
@@ -239,15 +240,7 @@ impl Counted {
         let halves = bands(&problem, &few.spectrum, [&left, &few.residual]);
         let clocks = (&shifts[..], settings.is_shifted);
         let [spring, sum] = shift::ranges(&records, clocks, &problem, [End::Spring, End::Sum]);
-        // Networks with branches that are slower or faster are as near.
-        let free = Dense::of(&problem);
-        let free = free.every_term(&free.minimum());
-        let end = |own: &Spectrum| own.spring + own.branches.iter().map(|own| own.1).sum::<f64>();
-        let (spring, sum) = if settings.is_solid {
-            (spring, sum)
-        } else {
-            (spring.around(free.spring), sum.around(end(&free)))
-        };
+        let end = few.spectrum.spring + few.spectrum.branches.iter().map(|own| own.1).sum::<f64>();
         let mut each = each((&records, &shifts), &problem, &few.residual, floor);
         let whole = Problem::of(all, &shifts);
         let off = few.spectrum.residual(&whole);
@@ -266,9 +259,9 @@ impl Counted {
             curves: curves::curves(&records, &problem, [&left, &few.residual], halves.as_ref()),
             records: each,
             spring: spring.around(few.spectrum.spring),
-            sum: sum.around(end(&few.spectrum)),
+            sum: sum.around(end),
             spectrum: few.spectrum,
-            slowest: problem.slowest(),
+            slowest: shift::slowest(&problem),
             limits: problem.limits,
         })
     }

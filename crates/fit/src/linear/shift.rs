@@ -15,6 +15,8 @@ const TRIED: i32 = 8;
 const HALVINGS: usize = 6;
 /// Shifts on each side at which ranges are looked at as well.
 const AROUND: i32 = 4;
+/// The slowest branch that ranges allow for, in multiples of the longest time.
+const SLOWEST: f64 = 10.0;
 
 /// The shifts at which the floor is lowest, one record after the other.
 pub(super) fn nearest(records: &[Record]) -> Vec<f64> {
@@ -54,18 +56,24 @@ pub(super) fn is_nearer(shifted: Misfit, unshifted: Misfit) -> bool {
     unshifted.rms > ROUNDING && shifted.rms < (1.0 - LOWERS) * unshifted.rms
 }
 
+/// The slowest branch that ranges allow for \[s\].
+pub(super) fn slowest(problem: &Problem) -> f64 {
+    SLOWEST * problem.range.1
+}
+
 /// The ranges of both ends of the spectrum, with all shifts that keep within the noise.
 ///
-/// No branch is so slow that little of it is seen: it could not be told from the spring. How fast one is is free.
+/// A spring that rows come to rest at is told from a branch of ten times their length; one that they are still on the
+/// way to is not. How fast a branch is is free.
 pub(super) fn ranges(
     records: &[Record],
     (shifts, are_free): (&[f64], bool),
     problem: &Problem,
     ends: [End; 2],
 ) -> [Range; 2] {
-    let slowest = problem.slowest();
+    let slowest = slowest(problem);
     let dense = Dense::until(problem, slowest);
-    let tolerated = tolerated(problem, &dense.minimum().residual);
+    let tolerated = tolerated(problem, &dense.minimum());
     let mut others: Vec<Dense> = Vec::new();
     for (at, record) in records.iter().enumerate().filter(|own| own.1.has_history()) {
         let step = record.range().0 / f64::from(AROUND);

@@ -106,6 +106,55 @@ fn loss_that_is_not_that_of_the_storage_is_named() {
     assert!(found.storage_alone < 0.01 && found.loss_alone < 0.01, "{found:?}");
 }
 
+/// A relaxation over four decades with 1 % of noise, fitted.
+fn relaxed(modulus: impl Fn(f64) -> f64, rows: u32, seed: u64) -> LinearFit {
+    let mut stream = Stream::new(seed);
+    let rows = times(1e-2, 1e2, rows).map(|t| (t, modulus(t) * (1.0 + 0.01 * normal(&mut stream))));
+    fit(&[Record::Relaxation(rows.collect())], SETTINGS).unwrap()
+}
+
+fn covers(own: Range, value: f64) -> bool {
+    own.low <= value && own.high.is_none_or(|high| value <= high)
+}
+
+#[test]
+fn what_rows_are_still_on_the_way_to_is_not_identified() {
+    let power = |exponent: f64, part: f64| move |t: f64| part * t.powf(-exponent);
+    for seed in 1..6 {
+        for rows in [60, 200] {
+            for (rest, exponent, part) in
+                [(0.0, 0.15, 1.0), (100.0, 0.15, 36.0), (100.0, 0.3, 25.0)]
+            {
+                let own = relaxed(|t| rest + power(exponent, part)(t), rows, seed).spring;
+                assert!(!own.is_identified(), "{rest} {exponent} {rows}: {own:?}");
+                assert!(covers(own, rest), "{rest} {exponent} {rows}: {own:?}");
+            }
+        }
+    }
+    // A plateau of more than a decade is.
+    let solid = |t: f64| 100.0 + 150.0 * (-t / 0.1).exp() + 80.0 * (-t / 2.0).exp();
+    let is_one = |seed: &u64| relaxed(solid, 200, *seed).spring.is_identified();
+    assert!((1..=10).filter(is_one).count() >= 8);
+}
+
+/// Intervals of 95 % hold the truth of two branches in 95 of 100 cases.
+#[test]
+fn two_branches_lie_within_their_bands_as_often_as_is_said() {
+    let solid = |t: f64| 100.0 + 150.0 * (-t / 0.1).exp() + 80.0 * (-t / 2.0).exp();
+    let (mut ranges, mut inside, mut all) = (0, 0, 0);
+    for seed in 1..=200 {
+        let own = relaxed(solid, 60, seed);
+        ranges += u32::from(covers(own.spring, 100.0));
+        for row in &own.curves[0].rows {
+            all += 1;
+            inside += u32::from((row.model - solid(row.at)).abs() <= row.half.unwrap());
+        }
+    }
+    println!("spring {ranges} of 200, rows {inside} of {all}");
+    assert!(ranges >= 186, "{ranges}");
+    assert!(f64::from(inside) >= 0.93 * f64::from(all), "{inside} of {all}");
+}
+
 /// Strains that rise within three samples, and the stress of a material at the same samples, or written down later.
 fn ramp(truth: &Spectrum, late: f64, noise: f64) -> Record {
     let step = 0.15;
@@ -135,10 +184,9 @@ fn what_relaxes_within_the_ramp_is_not_identified_and_what_remains_is() {
         let branches = [vec![(0.02, fast)], slow.clone()].concat();
         Spectrum { spring: 400.0, dashpot: 0.0, branches }
     };
-    let own = fit(&[ramp(&truth(1000.0), 0.0, 3.0)], SETTINGS).unwrap();
+    let own = fit(&[ramp(&truth(1000.0), 0.0, 1.0)], SETTINGS).unwrap();
     assert!(!own.sum.is_identified(), "{:?}", own.sum);
-    let covers = |value: f64| own.sum.low <= value && own.sum.high.is_none_or(|high| value <= high);
-    assert!(covers(2800.0) && covers(2000.0), "{:?}", own.sum);
+    assert!(covers(own.sum, 2800.0) && covers(own.sum, 2000.0), "{:?}", own.sum);
     assert!(own.spring.is_identified() && (own.spring.value / 400.0 - 1.0).abs() < 0.03, "{own:?}");
 }
 

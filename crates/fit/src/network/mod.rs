@@ -67,6 +67,8 @@ pub struct TestFit {
     pub is_structured: bool,
     /// Whether that is so much of its peak that the model does not describe it.
     pub is_missed: bool,
+    /// Whether it goes to the other side than the model, as if its sign were turned.
+    pub is_opposed: bool,
     /// Rows at the end of the range of what they were recorded with: how far the truth goes beyond is not known.
     pub clipped: usize,
     /// What the rows before the impact read, where the fitted zero is none of them.

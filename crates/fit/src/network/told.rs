@@ -64,6 +64,15 @@ fn other_zero(test: &Test, left: &[f64], own: Own, until: f64) -> Option<OtherZe
     is_apart.then_some(OtherZero { rows, median: own.offset - median })
 }
 
+/// To which side of its first value a curve goes more than twice as far as to the other: 1 or −1.
+fn side(values: impl Iterator<Item = f64> + Clone) -> Option<f64> {
+    let first = values.clone().next()?;
+    let (low, high) = values.fold((0.0, 0.0), |(low, high): (f64, f64), own| {
+        (low.min(own - first), high.max(own - first))
+    });
+    (high > -2.0 * low || -low > 2.0 * high).then_some(if high > -low { 1.0 } else { -1.0 })
+}
+
 /// The value of the largest magnitude, with its sign.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most: f64, own| if own.abs() > most.abs() { own } else { most })
@@ -137,6 +146,10 @@ impl Task<'_> {
             let measured_peak = largest(test.rows.iter().map(|row| row.1 - own.offset));
             let part = if test.kind == Kind::Modulus { rms } else { rms / measured_peak.abs() };
             let known = test.noise.or(scatter.map(|own| own.deviation)).or(at_rest);
+            let model = test.rows.iter().zip(&residual).map(|(row, left)| row.1 + left);
+            let sides = side(test.rows.iter().map(|row| row.1)).zip(side(model));
+            let is_opposed =
+                test.kind != Kind::Modulus && sides.is_some_and(|own| own.0 * own.1 < 0.0);
             let is_structured = part > EXACT && is_structured(left, known.map(|own| own / unit));
             Some(TestFit {
                 shift: own.shift,
@@ -156,7 +169,9 @@ impl Task<'_> {
                 clipped: if test.kind == Kind::Blow { clipped_rows(&test.rows) } else { 0 },
                 other_zero: other_zero(test, &residual, own, rests),
                 is_structured,
-                is_missed: is_structured && part > MISSED && durbin_watson(left) < FOLLOWING,
+                is_missed: is_opposed
+                    || is_structured && part > MISSED && durbin_watson(left) < FOLLOWING,
+                is_opposed,
                 scatter,
                 measured_peak,
                 model_peak: own.gain * self.peak_of(at, curve.as_ref(), own.shift),

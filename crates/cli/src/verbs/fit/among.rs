@@ -62,14 +62,8 @@ fn asked(text: &str) -> Result<(&str, Vec<Form>), CliError> {
     let form = |word: &str| {
         Form::named(word.trim()).ok_or_else(|| {
             let known: Vec<&str> = list(KNOWN.iter().map(|own| own.0));
-            CliError::WrongSetting {
-                name: FLAG.to_owned(),
-                reason: format!(
-                    "there is no form `{}`; there are {}",
-                    word.trim(),
-                    known.join(", ")
-                ),
-            }
+            let (word, known) = (word.trim(), known.join(", "));
+            CliError::setting(FLAG, format!("there is no form `{word}`; there are {known}"))
         })
     };
     let forms = words.split(',').map(form).collect::<Result<Vec<_>, _>>()?;
@@ -117,7 +111,7 @@ pub(super) fn chosen<'p>(plan: Plan<'p>, text: &str) -> Result<FittedScene<'p>, 
     };
     let Some(at) = among.choice.chosen else {
         let reason = format!("none of {} can be fitted", among.words.join(", "));
-        return Err(CliError::WrongSetting { name: FLAG.to_owned(), reason });
+        return Err(CliError::setting(FLAG, reason));
     };
     let place = places.swap_remove(at);
     let fit = plan.fit(Some(&place), plan.profile())?;
@@ -126,7 +120,7 @@ pub(super) fn chosen<'p>(plan: Plan<'p>, text: &str) -> Result<FittedScene<'p>, 
 
 /// A form in the place of a model, with its constants about what that is between the times of the tests.
 fn replaced(plan: &Plan<'_>, named: &NamedModel, form: &Form) -> Result<Replaced, CliError> {
-    let wrong = |reason: String| CliError::WrongSetting { name: FLAG.to_owned(), reason };
+    let wrong = |reason: String| CliError::setting(FLAG, reason);
     if let Some(element) = first_nonlinear(&named.model) {
         return Err(wrong(format!(
             "`{}` has a {}: write a linear guess in its place, such as `spring = \"100 kN/m\"`",

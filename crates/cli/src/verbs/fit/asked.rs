@@ -44,6 +44,8 @@ pub(super) struct Asked {
     pub(super) noise: Option<String>,
     /// How fast a model alone was pressed, where the file has no times.
     pub(super) rate: Option<String>,
+    /// What the columns are multiplied by.
+    pub(super) scale: f64,
 }
 
 /// Reads one.
@@ -62,6 +64,10 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     let cfc = take("cfc").map(|own| frequency_class(&own)).transpose()?;
     let gain = take("gain").map(|own| share(&own)).transpose()?;
     let noise = take("noise");
+    let scale = take("scale").map_or(Ok(1.0), |own| own.trim().parse::<f64>().map_err(|_| own));
+    let scale = scale.and_then(|own| if own.is_normal() { Ok(own) } else { Err(own.to_string()) });
+    let scale =
+        scale.map_err(|own| format!("a scale is a number, such as -1, and `{own}` is none"))?;
     // Else it may be a number of the scene.
     let rate = if is_model { take("rate") } else { None };
     let (file, columns) = left.rsplit_once(':').ok_or(help)?;
@@ -72,7 +78,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
     }
     let (file, target) = (file.to_owned(), target.to_owned());
     let text = text.trim().to_owned();
-    Ok(Asked { text, file, columns, target, set, cfc, gain, noise, rate })
+    Ok(Asked { text, file, columns, target, set, cfc, gain, noise, rate, scale })
 }
 
 /// A record of a file.
@@ -166,7 +172,7 @@ impl Asked {
         let file = MeasuredFile::read(FLAG, &self.file)?;
         let table = file.table()?;
         let columns = self.positions(&file, &table)?;
-        let found = Columns { file: &file, table: &table, answers: columns };
+        let found = Columns { file: &file, table: &table, answers: columns, scale: self.scale };
         let frequency = file.only(&table, Dimension::FREQUENCY)?;
         let time = file.only(&table, Dimension::TIME)?;
         found.check_temperature(time.filter(|_| frequency.is_none()).zip(until))?;
@@ -274,6 +280,8 @@ struct Columns<'f, 't> {
     file: &'f MeasuredFile,
     table: &'f DataTable<'t>,
     answers: Vec<usize>,
+    /// What these are multiplied by.
+    scale: f64,
 }
 
 /// A record, whether it is that of a material, and what it is.
@@ -292,7 +300,9 @@ impl Columns<'_, '_> {
     }
 
     fn numbers(&self, column: usize, dimension: Dimension) -> Result<Vec<f64>, CliError> {
-        self.table.column(column, dimension).map_err(|own| self.file.fault(own))
+        let values = self.table.column(column, dimension).map_err(|own| self.file.fault(own))?;
+        let scale = if self.answers.contains(&column) { self.scale } else { 1.0 };
+        Ok(list(values.into_iter().map(|own| scale * own)))
     }
 
     /// Whether all units can be read.

@@ -65,7 +65,8 @@ pub(super) const SECTION: Verb = Verb { name: "fit", files: &[("to", |_| Some(0)
     alone, such as `pad`; a force over a deformation without times states its rate. Several tests share \
     the numbers. What differs is set behind a comma: \"low.csv:force=pad.force,head.drop=0.5 m\", or \
     \"head.velocity=4.5 ± 0.05 m/s\" where it was measured, and how the test was recorded: \
-    \"cfc=180,noise=0.5 g,gain=1%\". Tests for which the same stands behind `=` are repeats of one. The section \
+    \"cfc=180,noise=0.5 g,gain=1%\"; `scale=-1` turns the sign of its columns. Tests for which the same stands behind \
+    `=` are repeats of one. The section \
     `[fit]` of a scene sets options by their names; those of the command stand above them.\n\n\
     What no network of springs and dashpots can meet is said, and what \
     the records do not determine.")]
@@ -144,10 +145,7 @@ pub(crate) struct FitArguments {
 impl FitArguments {
     /// Whether there is something to fit to, and every option that is given is one of this kind of fit.
     fn check(&self) -> Result<(), CliError> {
-        let wrong = |name: &str, reason: &str| {
-            let (name, reason) = (name.to_owned(), reason.to_owned());
-            Err(CliError::WrongSetting { name, reason })
-        };
+        let wrong = |name: &str, reason: &str| Err(CliError::setting(name, reason));
         if self.to.is_empty() {
             return wrong("--to", "say to what is fitted, as in \"drop.csv:force=pad.force\"");
         }
@@ -220,8 +218,8 @@ impl FitArguments {
 fn check_tests<const N: usize>(options: [(&'static str, bool, bool); N]) -> Result<(), CliError> {
     let none = options.into_iter().find(|own| own.1 && !own.2);
     none.map_or(Ok(()), |own| {
-        let reason = "it changes nothing: there is no test of which it could be said".to_owned();
-        Err(CliError::WrongSetting { name: own.0.to_owned(), reason })
+        let reason = "it changes nothing: there is no test of which it could be said";
+        Err(CliError::setting(own.0, reason))
     })
 }
 

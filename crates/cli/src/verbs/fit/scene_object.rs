@@ -84,6 +84,7 @@ fn test<'a>(all: &'a FittedScene<'a>, at: usize) -> impl Serialize + 'a {
         noise_at_rest: own.noise_at_rest,
         structured: own.is_structured,
         missed: own.is_missed,
+        opposed: own.is_opposed,
         clipped: own.clipped,
         other_zero: own.other_zero,
         scatter: own.scatter,

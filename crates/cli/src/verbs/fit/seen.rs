@@ -91,19 +91,21 @@ impl Seen<'_> {
         let Self { asked, curve, test, own } = self;
         let file = &asked.file;
         let is_blow = test.kind == Kind::Blow;
-        let off =
-            Some(own.model_peak / own.measured_peak - 1.0).filter(|own| own.abs() > MISSED)?;
-        let largest = test.rows.iter().map(|row| row.1);
-        let largest = largest.max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
-        if is_blow && largest * own.model_peak < 0.0 {
-            let sign = |own: f64| if own < 0.0 { "negative" } else { "positive" };
+        if own.is_opposed {
+            let key = curve.output.key();
+            let [one, other] = if own.model_peak < 0.0 {
+                ["positive", "negative"]
+            } else {
+                ["negative", "positive"]
+            };
             return Some(format!(
-                "the largest value of {file} is {}, and `{}` is {}: turn the sign of the column",
-                sign(largest),
-                curve.output.key(),
-                sign(own.model_peak)
+                "the largest value of {file} is {one}, and `{key}` is {other}: turn the sign of its column, \
+                 \"{},scale=-1\"",
+                asked.text
             ));
         }
+        let off =
+            Some(own.model_peak / own.measured_peak - 1.0).filter(|own| own.abs() > MISSED)?;
         let is_filter = test.filter.is_none() && is_blow;
         let filter =
             if is_filter { "a filter that the record went through (`--cfc`), " } else { "" };

@@ -7,12 +7,10 @@ use std::sync::{
 };
 
 use dashpot_analysis::{
-    RunReport, Solve as _,
+    Solve as _,
     sweep::{ContactForce, ContactForces, PoseAt, ScenePoint},
 };
-use dashpot_dae::Signal;
 use dashpot_fit::network::Curve;
-use dashpot_network::Assembly;
 use dashpot_plot::Of;
 use dashpot_scene::{NamedModel, Posed, Tunables, read_named_model};
 
@@ -21,7 +19,7 @@ use crate::{
     input::Input,
     output::list,
     varied::{Varied, messages, point, posed},
-    verbs::run::{beside::Output, series::first_touch},
+    verbs::run::{beside::Output, recorded::Recorded},
 };
 
 /// Tolerance of runs by stepping methods.
@@ -164,7 +162,8 @@ impl<'s> Solver<'s> {
         settings.measures.clear();
         settings.limits.clear();
         let run = network.solve_with(&settings).map_err(|error| error.to_string())?;
-        let own = Arc::new(Recorded::of(&run, self.output)?);
+        let lacks = || format!("`{}` is not kept in this run", self.output.key());
+        let own = Arc::new(Recorded::of(&run, self.output).ok_or_else(lacks)?);
         let mut kept = kept();
         if kept.len() == KEPT {
             kept.remove(0);
@@ -191,51 +190,12 @@ impl Curve for Pushed {
     }
 }
 
-/// A signal of a run as it is recorded.
-struct Recorded {
-    signal: Signal,
-    /// What is there before the start.
-    rest: f64,
-    /// When in the run the time of the record is 0 \[s\].
-    zero: f64,
-    end: f64,
-}
-
-impl Recorded {
-    fn of(run: &RunReport, output: &Output) -> Result<Self, String> {
-        let lacks = || format!("`{}` is not kept in this run", output.key());
-        let (place, sign) = output.place(&run.assembly).ok_or_else(lacks)?;
-        if !run.trajectory.keeps(&run.assembly.system, place) {
-            return Err(lacks());
-        }
-        let signal = run.solution().signal(place).scaled(sign);
-        let rest = if is_untouched(&run.assembly, output) { 0.0 } else { signal.value(0.0) };
-        Ok(Self { signal, rest, zero: first_touch(run).unwrap_or(0.0), end: run.trajectory.t_end })
-    }
-}
-
-/// Whether nothing acts there before the start: where a mass that flies has yet to touch.
-fn is_untouched(assembly: &Assembly, output: &Output) -> bool {
-    match output.of {
-        Of::Force => assembly.connection(output.name()).is_some_and(|own| {
-            own.between.iter().any(|node| assembly.nodes[node.index()].is_impactor())
-        }),
-        Of::Acceleration => {
-            let own = assembly.nodes.iter().find(|own| own.name == output.name());
-            own.is_some_and(dashpot_network::NodeOutputs::is_impactor)
-        }
-        _ => false,
-    }
-}
-
 /// A record that is asked for again.
 struct Shared(Arc<Recorded>);
 
 impl Curve for Shared {
     fn value(&self, time: f64) -> f64 {
-        let Recorded { signal, rest, zero, end } = &*self.0;
-        let time = time + zero;
-        if time < 0.0 { *rest } else { signal.value(time.min(*end)) }
+        self.0.value(time)
     }
 
     fn peak(&self) -> (f64, f64) {

@@ -10,9 +10,12 @@ use super::{
 };
 use crate::{
     error::CliError,
-    numbers::{quantity, share},
+    numbers::share,
     output::list,
-    verbs::run::beside::{MeasuredCurve, Output},
+    verbs::run::{
+        beside::{MeasuredCurve, Output},
+        measure_text,
+    },
 };
 
 /// What rows are compared with.
@@ -67,7 +70,7 @@ impl Compared {
     pub(super) fn told(&self, value: f64, digits: usize) -> String {
         match self.kind() {
             Kind::Modulus => share(value),
-            _ => quantity(value, self.unit(), digits),
+            _ => measure_text("", value, self.unit(), digits),
         }
     }
 }
@@ -88,6 +91,7 @@ pub(super) fn targets(
         }
         let curve = MeasuredCurve::read((FLAG, &asked.measured_as()), 0.0, assembly)?;
         let kept = curve.rows.into_iter().filter(|own| until.is_none_or(|until| own.0 <= until));
+        let kept = kept.map(|own| (own.0, asked.scale * own.1));
         let (rows, output) = (list(kept), Compared::Output(curve.output));
         return Ok(vec![Target { rows, note: curve.note, output }]);
     }

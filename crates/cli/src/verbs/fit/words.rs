@@ -223,8 +223,8 @@ pub(super) fn notes(fitted: &Fitted<'_>) -> Vec<String> {
         ));
     }
     all.push(format!(
-        "the ranges are those of all networks that are as near within the noise, with no branch slower than {}, a \
-         fifth of the longest time: a slower one could not be told from a spring",
+        "the ranges are those of all networks that are as near within the noise, with no branch slower than {}, ten \
+         times the longest time: whether more relaxes later, no row tells",
         quantity(fit.slowest, "s", FEW)
     ));
     all
