@@ -260,7 +260,7 @@ fn the_thickness_limits_a_b_and_d() {
     for (varied, beyond) in
         [(Varied::A, 0), (Varied::B, 1), (Varied::C, 0), (Varied::D, 1), (Varied::C2, 1)]
     {
-        let family = all.study.family(varied).unwrap();
+        let family = all.study.family(varied);
         let count = family.members.iter().filter(|member| member.exceeds()).count();
         assert_eq!(count, beyond, "{varied:?}");
     }
@@ -269,7 +269,7 @@ fn the_thickness_limits_a_b_and_d() {
 #[test]
 fn a_takes_k1_down_and_not_up() {
     let all = all();
-    let family = all.study.family(Varied::A).unwrap();
+    let family = all.study.family(Varied::A);
     let k1 = |at: usize| family.members[at].padding().unwrap().k1 / 1e6;
     digits("D.10 at a = 20", k1(0), "60");
     digits("D.10 at a = 35", k1(4), "10.9");
@@ -301,7 +301,7 @@ fn the_claims_of_chapters_5_and_6_get_the_verdicts_of_the_checked_page() {
         assert!(at(symbol).is_none_or(|own| own.contains('(') && !own.contains(" 1 ms")));
         assert!(at(symbol).is_none_or(|own| !own.contains("(1 ms")), "{cases:?}");
     }
-    let b = all.study.family(Varied::B).unwrap();
+    let b = all.study.family(Varied::B);
     let early = b.each(|own| own.energy(0.5));
     digits("ω at 1 ms, b = 50", early[0], "0.264");
     digits("ω at 1 ms, b = 80", early[4], "0.235");
@@ -351,7 +351,7 @@ fn figures_stand_for_themselves() {
     }
     // Figure 18 ends where the energies of 10 ms are.
     let energies = &figures.iter().find(|figure| figure.number == 18).unwrap().columns;
-    let family = all.study.family(Varied::B).unwrap();
+    let family = all.study.family(Varied::B);
     for (column, exact) in energies[1..].iter().zip(family.each(|own| own.energy(5.0))) {
         assert!((column.values.last().unwrap() - exact).abs() < 1e-12);
     }

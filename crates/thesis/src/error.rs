@@ -1,6 +1,6 @@
 //! What can go wrong.
 
-use dashpot_analysis::{RunError, rheometer::RheometerError};
+use dashpot_analysis::{RunError, rheometer::RheometerError, similarity::SimilarityError};
 use dashpot_network::NetworkErrors;
 use dashpot_rheology::appendix_a::AppendixAError;
 use thiserror::Error;
@@ -10,11 +10,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ThesisError {
     /// Groups that no padding has.
-    #[error("no padding has these groups: q = a − b c/d − d/c is {q}, and must be positive")]
-    NoPadding {
-        /// The value of q.
-        q: f64,
-    },
+    #[error(transparent)]
+    Similarity(#[from] SimilarityError),
     /// An impact that cannot be solved.
     #[error(transparent)]
     Run(#[from] RunError),

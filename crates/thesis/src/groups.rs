@@ -10,21 +10,25 @@ use dashpot_network::{
     part,
 };
 use dashpot_rheology::{
-    Tree,
-    appendix_a::{Burgers, SpringDashpot},
+    Branch, Tree,
+    appendix_a::{AppendixAError, Burgers, SpringDashpot, TwoMaxwell},
 };
 
-/// A four-parameter padding as the Burgers element of appendix A.
-pub(crate) fn burgers(Padding { k1, c1, k2, c2 }: Padding) -> Burgers {
-    Burgers {
-        maxwell: SpringDashpot { spring: k2, dashpot: c2 },
-        kelvin: SpringDashpot { spring: k1, dashpot: c1 },
-    }
+/// The two Maxwell elements of appendix A that stand for a four-parameter padding.
+pub(crate) fn two_maxwell(pad: Padding) -> Result<TwoMaxwell, AppendixAError> {
+    let Padding { k1, c1, k2, c2 } = pad;
+    let [maxwell, kelvin] = [(k2, c2), (k1, c1)];
+    let pair = |(spring, dashpot)| SpringDashpot { spring, dashpot };
+    Burgers { maxwell: pair(maxwell), kelvin: pair(kelvin) }.to_two_maxwell()
 }
 
-/// A spring and a dashpot in series.
-pub(crate) fn maxwell(stiffness: f64, damping: f64) -> Model {
-    Tree::series([part(Spring { stiffness }), part(Dashpot { damping })])
+/// The model of these elements.
+pub(crate) fn in_parallel(two: TwoMaxwell) -> Model {
+    let branch = |name: &str, SpringDashpot { spring, dashpot }: SpringDashpot| {
+        let parts = [part(Spring { stiffness: spring }), part(Dashpot { damping: dashpot })];
+        Branch::new(name, Tree::series(parts))
+    };
+    Tree::Parallel(vec![branch("slow", two.slow), branch("fast", two.fast)])
 }
 
 #[cfg(test)]
@@ -81,14 +85,14 @@ mod tests {
 
     #[test]
     fn a_padding_exists_between_two_values_of_c() {
-        let (low, high) = Groups::PRINTED.ranges().c.unwrap();
+        let (low, high) = Groups::PRINTED.ranges().0[2].unwrap();
         assert!((low - 3.361).abs() < 5e-4 && (high - 28.562).abs() < 5e-4, "{low} {high}");
         let with = |c: f64| Groups { c, ..Groups::PRINTED }.padding(&Scales::UNIT);
-        assert!(with(low * 0.999).is_none() && with(low * 1.001).is_some());
-        assert!(with(high * 1.001).is_none() && with(high * 0.999).is_some());
+        assert!(with(low * 0.999).is_err() && with(low * 1.001).is_ok());
+        assert!(with(high * 1.001).is_err() && with(high * 0.999).is_ok());
         // K2 from 8.4 to 71.4 MN/m.
         let stiffness = |c: f64| c * 10.0 / 4e-6 / 1e6;
         assert!((stiffness(low) - 8.4).abs() < 0.05 && (stiffness(high) - 71.4).abs() < 0.05);
-        assert!(Groups { a: 10.0, ..Groups::PRINTED }.ranges().c.is_none());
+        assert!(Groups { a: 10.0, ..Groups::PRINTED }.ranges().0[2].is_none());
     }
 }

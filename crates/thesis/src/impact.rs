@@ -27,11 +27,10 @@ impl Impact {
     ///
     /// # Errors
     ///
-    /// [`ThesisError::NoPadding`] where q ≤ 0; [`ThesisError::Run`] where the groups are no numbers
+    /// [`ThesisError::Similarity`] where q ≤ 0; [`ThesisError::Run`] where the groups are no numbers
     /// that can be solved.
     pub fn of_groups(groups: &Groups) -> Result<Self, ThesisError> {
-        let none = || ThesisError::NoPadding { q: groups.q() };
-        Self::solve(groups, &groups.network(&Scales::UNIT).ok_or_else(none)?)
+        Self::solve(groups, &groups.network(&Scales::UNIT)?)
     }
 
     /// The impact of chapter IV on a padding and a support in SI units.
@@ -52,15 +51,9 @@ impl Impact {
         let assembly = network.compile(DURATION)?;
         let trajectory = Exact.integrate(&assembly.system, &Run::to(DURATION), &mut Silent)?;
         let signal = |name: &str| {
-            let none = || RunError::UnknownOutput {
-                output: name.to_owned(),
-                known: assembly
-                    .system
-                    .outputs
-                    .iter()
-                    .map(|output| output.name.to_owned())
-                    .collect(),
-            };
+            let outputs = assembly.system.outputs.iter();
+            let known = || outputs.map(|output| output.name.to_owned()).collect();
+            let none = || RunError::UnknownOutput { output: name.to_owned(), known: known() };
             assembly.output(name).map(|at| trajectory.signal(&assembly.system, at)).ok_or_else(none)
         };
         let force = signal("padding.force")?;

@@ -3,8 +3,8 @@
 use dashpot_plot::Table;
 
 use crate::{
-    Groups, Impact, Padding, Pulse, STANDARD_GRAVITY, Scales, Study, Support, ThesisError,
-    groups::burgers, words::significant,
+    Constants, Groups, Impact, Padding, Pulse, STANDARD_GRAVITY, Scales, Study, Support,
+    ThesisError, groups::two_maxwell, words::significant,
 };
 
 /// A misprint. The scan of the thesis is poor in places, so some may be the scan's.
@@ -107,6 +107,7 @@ fn chapter_3(study: &Study) -> Vec<Misprint> {
     let ratio = k1 * thickness / (c1 * speed);
     // Early enough for every term to matter.
     let time = 0.5;
+    let [printed_3_60, mended_3_60] = forms_of_3_60(&pulse, &own, time);
     vec![
         Misprint::plain("3.5", "c ρ = (A/c)(m² − a m + b)", "ρ = (A/c)(m² − a m + b)")
             .shown("R₁ by 3.16, and by 3.18", [r1(rho / c), r1(rho), own.r1]),
@@ -129,32 +130,23 @@ fn chapter_3(study: &Study) -> Vec<Misprint> {
         )
         .shown(
             "ω(0.5), and by quadrature of 3.57",
-            [as_printed_in_3_60(&pulse, time), mended_3_60(&pulse, time), pulse.energy(time)],
+            [printed_3_60, mended_3_60, pulse.energy(time)],
         ),
     ]
 }
 
-/// 3.60 as the scan has it, with L₂ for its C₂.
-fn as_printed_in_3_60(pulse: &Pulse, time: f64) -> f64 {
-    let Some(own) = pulse.constants() else { return f64::NAN };
+/// 3.60 as the scan has it, with L₂ for its C₂, and as it follows from 3.59.
+fn forms_of_3_60(pulse: &Pulse, own: &Constants, time: f64) -> [f64; 2] {
     let (p, m, nu) = (pulse.slope, pulse.decay, own.nu);
     let sum = nu + m;
-    let first = p * nu * own.l2 * (1.0 + time * sum) / (sum * sum);
-    let bracket = first + (-2.0 * m * time).exp() / (4.0 * m * m);
+    let (once, twice) = ((-sum * time).exp(), (-2.0 * m * time).exp() / (4.0 * m * m));
+    let bracket = p * nu * own.l2 * (1.0 + time * sum) / (sum * sum) + twice;
     let brace = 2.0 * p * m * m * time * time * (own.r1 + own.r2) + p * m * own.r2;
-    let last = p * own.r2 / (4.0 * m) * p * nu * own.l2 / (sum * sum);
-    (-sum * time).exp() * bracket * brace - last
-}
-
-/// 3.60 as it follows from 3.59.
-fn mended_3_60(pulse: &Pulse, time: f64) -> f64 {
-    let Some(own) = pulse.constants() else { return f64::NAN };
-    let (p, m, nu) = (pulse.slope, pulse.decay, own.nu);
-    let sum = nu + m;
+    let last = p * own.r2 / (4.0 * m);
+    let printed = once * bracket * brace - last * p * nu * own.l2 / (sum * sum);
     let flow = p * nu * own.l2 / (sum * sum);
     let brace = 2.0 * p * m * m * time * (own.r1 * time + own.r2) + p * m * own.r2;
-    let twice = (-2.0 * m * time).exp() / (4.0 * m * m) * brace;
-    (-sum * time).exp() * flow * (1.0 + time * sum) + twice - p * own.r2 / (4.0 * m) - flow
+    [printed, once * flow * (1.0 + time * sum) + twice * brace - last - flow]
 }
 
 fn chapters_4_and_5(study: &Study) -> Vec<Misprint> {
@@ -195,7 +187,7 @@ fn appendix_a() -> Result<Vec<Misprint>, ThesisError> {
     // With K₁ = K₂, as in chapter IV, A.9 would not show.
     let padding = Padding { k1: 10e6, ..Padding::CHAPTER_4 };
     let Padding { k1, c1, k2, c2 } = padding;
-    let truth = 1e-6 * burgers(padding).to_two_maxwell()?.slow.spring;
+    let truth = 1e-6 * two_maxwell(padding)?.slow.spring;
     let third = |alpha: f64, beta: f64| {
         1e-6 * (k2 * alpha + k2 * beta - k2 * k2 / c1 - k2 * k2 / c2) / (2.0 * beta)
     };

@@ -37,7 +37,7 @@ impl Recomputation {
     pub fn new() -> Result<Self, ThesisError> {
         let study = Study::new()?;
         Ok(Self {
-            numbers: numbers(&study),
+            numbers: numbers(&study)?,
             misprints: misprints(&study)?,
             claims: claims(&study)?,
             study,

@@ -5,7 +5,7 @@ use dashpot_plot::Table;
 
 use crate::{
     Groups, Impact, Padding, Scales, Support, ThesisError,
-    words::{short, significant},
+    words::{extremes, short, significant},
 };
 
 /// A parameter that is varied, all others at base.
@@ -35,7 +35,7 @@ pub struct Family {
     /// Which one.
     pub varied: Varied,
     /// Its values, rising, with their impacts.
-    pub members: Vec<Member>,
+    pub members: [Member; 5],
 }
 
 /// An impact of a family.
@@ -59,29 +59,15 @@ pub struct Study {
     /// The same with the C₃ that is printed, 10 MN s/m.
     pub system_stiff: Impact,
     /// Families of a, b, c and d around the printed groups.
-    pub groups: Vec<Family>,
+    pub groups: [Family; 4],
     /// Families of K₁, K₂, C₁ and C₂ around the system parameters.
-    pub constants: Vec<Family>,
+    pub constants: [Family; 4],
 }
 
 impl Varied {
-    /// The groups of the figures.
-    pub const GROUPS: [Self; 4] = [Self::A, Self::B, Self::C, Self::D];
-    /// The system parameters of the padding.
-    pub const CONSTANTS: [Self; 4] = [Self::K1, Self::K2, Self::C1, Self::C2];
-
     /// Its symbol.
     pub fn symbol(self) -> &'static str {
-        match self {
-            Self::A => "a",
-            Self::B => "b",
-            Self::C => "c",
-            Self::D => "d",
-            Self::K1 => "K1",
-            Self::K2 => "K2",
-            Self::C1 => "C1",
-            Self::C2 => "C2",
-        }
+        ["a", "b", "c", "d", "K1", "K2", "C1", "C2"][self as usize]
     }
 
     /// The values of its family, the base among them. Those of the thesis' figures are lost, so they are chosen: on
@@ -127,10 +113,15 @@ impl Varied {
         }
     }
 
+    /// It and a value of it: `K1 = 10 MN/m`.
+    pub(crate) fn equals(self, value: f64) -> String {
+        format!("{} = {}", self.symbol(), self.text(value))
+    }
+
     fn family(self) -> Result<Family, ThesisError> {
-        let member = |value| Ok(Member { value, impact: self.impact(value)? });
-        let members = self.values().into_iter().map(member).collect::<Result<_, ThesisError>>()?;
-        Ok(Family { varied: self, members })
+        let member = |value| Ok::<_, ThesisError>(Member { value, impact: self.impact(value)? });
+        let [a, b, c, d, e] = self.values().map(member);
+        Ok(Family { varied: self, members: [a?, b?, c?, d?, e?] })
     }
 
     /// The value between two, on different sides of it, at which the largest deformation is the
@@ -157,17 +148,19 @@ impl Study {
     ///
     /// As [`Impact::of_groups`]; the values are such that there are none.
     pub fn new() -> Result<Self, ThesisError> {
+        use Varied::{A, B, C, C1, C2, D, K1, K2};
         let (base, pad) = (Groups::PRINTED, Padding::CHAPTER_4);
         let families = |of: [Varied; 4]| {
-            of.into_iter().map(Varied::family).collect::<Result<Vec<_>, ThesisError>>()
+            let [a, b, c, d] = of.map(Varied::family);
+            Ok::<_, ThesisError>([a?, b?, c?, d?])
         };
         Ok(Self {
             printed: Impact::of_groups(&base)?,
             printed_stiff: Impact::of_groups(&Groups { alpha: 200.0, ..base })?,
             system: Impact::of_system(&pad, &Support::CHAPTER_4)?,
             system_stiff: Impact::of_system(&pad, &Support::CHAPTER_4_STIFF)?,
-            groups: families(Varied::GROUPS)?,
-            constants: families(Varied::CONSTANTS)?,
+            groups: families([A, B, C, D])?,
+            constants: families([K1, K2, C1, C2])?,
         })
     }
 
@@ -176,52 +169,47 @@ impl Study {
         self.groups.iter().chain(&self.constants)
     }
 
+    /// The members of all families, each by its parameter and value.
+    pub(crate) fn members(&self) -> impl Iterator<Item = (String, &Impact)> {
+        self.families().flat_map(|family| {
+            let members = family.members.iter();
+            members.map(|member| (family.varied.equals(member.value), &member.impact))
+        })
+    }
+
     /// The family of a parameter.
-    pub fn family(&self, varied: Varied) -> Option<&Family> {
-        self.families().find(|family| family.varied == varied)
+    pub fn family(&self, varied: Varied) -> &Family {
+        let at = varied as usize;
+        self.groups.get(at).unwrap_or_else(|| &self.constants[at - self.groups.len()])
     }
 
     /// The largest change of the energy at a time \[s\] over the family of each group, relative to its base.
-    pub fn energy_changes(&self, time: f64) -> Vec<(&'static str, f64)> {
+    pub fn energy_changes(&self, time: f64) -> [(&'static str, f64); 4] {
         let tau = time / Scales::CHAPTER_4.time();
         let base = self.printed.energy(tau);
         let change = |family: &Family| {
-            let all = family.each(|own| own.energy(tau));
-            let (low, high) = all
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), own| (l.min(*own), h.max(*own)));
+            let [low, high] = extremes(family.each(|own| own.energy(tau)));
             (family.varied.symbol(), (high - low) / base)
         };
-        self.groups.iter().map(change).collect()
+        self.groups.each_ref().map(change)
     }
 }
 
 impl Family {
     /// What a quantity is of each member.
-    pub fn each(&self, of: impl Fn(&Impact) -> f64) -> Vec<f64> {
-        self.members.iter().map(|member| of(&member.impact)).collect()
+    pub fn each<T>(&self, of: impl Fn(&Impact) -> T) -> [T; 5] {
+        self.members.each_ref().map(|member| of(&member.impact))
     }
 
     /// The table that belongs to the figures: padding, q and measures of each member.
     pub fn table(&self) -> Table {
         let symbol = self.varied.symbol();
-        let header = [
-            symbol,
-            "K1 MN/m",
-            "C1 kN s/m",
-            "K2 MN/m",
-            "C2 kN s/m",
-            "q",
-            "φ max",
-            "at τ*",
-            "ξ max",
-            "at τ*",
-            "release τ*",
-            "thickness",
-        ];
+        let padding = ["K1 MN/m", "C1 kN s/m", "K2 MN/m", "C2 kN s/m", "q"];
+        let measures = ["φ max", "at τ*", "ξ max", "at τ*", "release τ*", "thickness"];
+        let header = [symbol].into_iter().chain(padding).chain(measures);
         Table::new(
             format!("The family of {symbol}, all else at base"),
-            &header,
+            header,
             self.members.iter().map(|member| member.row(self.varied)),
         )
     }
@@ -235,28 +223,20 @@ impl Member {
 
     /// The padding in SI units, as it is in chapter IV.
     pub fn padding(&self) -> Option<Padding> {
-        self.impact.groups.padding(&Scales::CHAPTER_4)
+        self.impact.groups.padding(&Scales::CHAPTER_4).ok()
     }
 
     fn row(&self, varied: Varied) -> Vec<String> {
         let number = |value: f64| significant(value, 4);
-        let pad = self.padding();
-        let of = |value: fn(&Padding) -> f64| pad.as_ref().map_or(f64::NAN, value);
-        let (peak, deepest) = (self.impact.peak(), self.impact.deepest());
-        let exceeds = if self.exceeds() { "exceeds" } else { "within" };
-        vec![
-            varied.text(self.value),
-            number(of(|own| own.k1) / 1e6),
-            number(of(|own| own.c1) / 1e3),
-            number(of(|own| own.k2) / 1e6),
-            number(of(|own| own.c2) / 1e3),
-            number(self.impact.groups.q()),
-            number(peak.value),
-            number(peak.time),
-            number(deepest.value),
-            number(deepest.time),
-            self.impact.release().map_or_else(|| "–".to_owned(), number),
-            exceeds.to_owned(),
-        ]
+        let [k1, c1, k2, c2] = self
+            .padding()
+            .map_or([f64::NAN; 4], |own| [own.k1 / 1e6, own.c1 / 1e3, own.k2 / 1e6, own.c2 / 1e3]);
+        let (own, q) = (&self.impact, self.impact.groups.q());
+        let (peak, deepest) = (own.peak(), own.deepest());
+        let values = [k1, c1, k2, c2, q, peak.value, peak.time, deepest.value, deepest.time];
+        let release = own.release().map_or_else(|| "–".to_owned(), number);
+        let exceeds = if self.exceeds() { "exceeds" } else { "within" }.to_owned();
+        let values = values.map(number).into_iter().chain([release, exceeds]);
+        [varied.text(self.value)].into_iter().chain(values).collect()
     }
 }

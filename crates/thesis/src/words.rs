@@ -2,25 +2,14 @@
 
 /// A number to so many significant digits; powers of ten only where it is very large or small.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
+    if value.is_infinite() {
+        return "∞".to_owned();
     }
-    if !value.is_finite() {
-        return if value.is_nan() { "–".to_owned() } else { "∞".to_owned() };
+    let text = dashpot_units::significant(value, digits).replace('-', "−");
+    match text.split_once('e') {
+        Some((mantissa, power)) => format!("{mantissa}×10{}", superscript(power)),
+        None => text,
     }
-    let places = digits.max(1) - 1;
-    let scientific = format!("{value:.places$e}");
-    let Some((mantissa, power)) = scientific.split_once('e') else { return scientific };
-    let power: i32 = power.parse().unwrap_or(0);
-    let decimals = i32::try_from(places).unwrap_or(0) - power;
-    let text = match usize::try_from(decimals) {
-        Ok(decimals) if power >= -4 => format!("{value:.decimals$}"),
-        Err(_) if power < 7 => {
-            format!("{:.0}", scientific.parse::<f64>().unwrap_or(value))
-        }
-        _ => format!("{mantissa}×10{}", superscript(power)),
-    };
-    text.replace('-', "−")
 }
 
 /// The same without zeros at the end.
@@ -41,6 +30,12 @@ pub(crate) fn change(relative: f64) -> String {
     format!("{sign}{:.1} %", percent.abs())
 }
 
+/// The least and the largest of some values.
+pub(crate) fn extremes(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let start = [f64::INFINITY, f64::NEG_INFINITY];
+    values.into_iter().fold(start, |[low, high], own| [low.min(own), high.max(own)])
+}
+
 /// Words in a row, with `and` before the last one.
 pub(crate) fn listed(words: &[String]) -> String {
     match words {
@@ -50,15 +45,15 @@ pub(crate) fn listed(words: &[String]) -> String {
     }
 }
 
-fn superscript(power: i32) -> String {
+fn superscript(power: &str) -> String {
     let digit = |own: char| match own {
-        '-' => '⁻',
+        '−' => '⁻',
         '1' => '¹',
         '2' => '²',
         '3' => '³',
         other => char::from_u32(0x2070 + other.to_digit(10).unwrap_or(0)).unwrap_or(other),
     };
-    power.to_string().chars().map(digit).collect()
+    power.chars().map(digit).collect()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::{
     groups::{Group, Groups, Inventory},
     names::renamed,
     scale::Scale,
-    views::{completed, drawn_as_burgers, mirrored, sorted, sorted_like},
+    views::{completed, drawn_as_burgers, mirrored, sorted},
 };
 
 /// A group of two networks.
@@ -77,8 +77,8 @@ impl Similarity {
         let second = &completed(second, first)?;
         for second in [second.clone(), mirrored(second)] {
             let drawn = drawn_as_burgers(first).zip(drawn_as_burgers(&second));
-            let ordered = sorted(first);
-            let like = sorted_like(&second, &ordered);
+            let ordered = sorted(first, None);
+            let like = sorted(&second, Some(&ordered));
             let views = [
                 Some((first.clone(), second.clone(), within)),
                 Some((ordered, like, within)),

@@ -115,15 +115,12 @@ impl Groups {
     fn formula(&self, quantity: &Quantity) -> String {
         let mut text = quantity.name.clone();
         let Some(exponents) = self.basis.exponents(quantity.dimension) else { return text };
-        let powers = || self.references.iter().map(|reference| reference.symbol).zip(&exponents);
-        let above: Vec<String> = powers()
-            .filter(|power| *power.1 < 0.0)
-            .map(|power| raised(power.0, -power.1))
-            .collect();
-        let below: Vec<String> = powers()
-            .filter(|power| *power.1 > 0.0)
-            .map(|power| raised(power.0, *power.1))
-            .collect();
+        let powers = |sign: f64| -> Vec<String> {
+            let all =
+                self.references.iter().zip(&exponents).map(|(own, power)| (own, sign * power));
+            all.filter(|own| own.1 > 0.0).map(|(own, power)| raised(own.symbol, power)).collect()
+        };
+        let (above, below) = (powers(-1.0), powers(1.0));
         if !above.is_empty() {
             let _ = write!(text, " {}", above.join(" "));
         }

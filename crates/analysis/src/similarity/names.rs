@@ -3,7 +3,7 @@
 use std::{collections::HashMap, sync::Arc};
 
 use dashpot_network::{
-    Connection, Effect, Model, Network, NodeId,
+    Effect, Model, Network,
     effects::EFFECTS,
     parameters::{InvalidParameter, ParameterKind, Value, registered},
 };
@@ -28,51 +28,40 @@ pub(super) fn renamed(
     if counts(network) != counts(like) {
         return Ok(None);
     }
-    let mut again = Network::new();
-    let mut names: HashMap<&str, &str> = HashMap::new();
-    for ((id, node), (_, other)) in network.nodes().zip(like.nodes()) {
-        names.insert(&node.name, &other.name);
-        if id != network.ground() {
-            let mut node = node.clone();
-            node.name.clone_from(&other.name);
-            again.add_node(node);
+    let mut again = network.clone();
+    for (own, (_, other)) in again.nodes_mut().iter_mut().zip(like.nodes().skip(1)) {
+        own.name.clone_from(&other.name);
+    }
+    for (own, other) in again.connections_mut().iter_mut().zip(like.connections()) {
+        own.name.clone_from(&other.name);
+        let Some(layers) = &mut own.layers else {
+            own.model = with_names(&own.model, &other.model);
+            continue;
+        };
+        let others = other.layers.iter().flat_map(|other| &other.all);
+        for (layer, other) in layers.all.iter_mut().zip(others) {
+            layer.name.clone_from(&other.name);
+            layer.model = with_names(&layer.model, &other.model);
         }
+        own.model = layers.model();
     }
-    for (own, other) in network.connections().iter().zip(like.connections()) {
-        names.insert(&own.name, &other.name);
-        let [from, to] = own.between;
-        if let Some(layers) = &own.layers {
-            let mut layers = layers.clone();
-            let others = other.layers.iter().flat_map(|other| &other.all);
-            for (layer, other) in layers.all.iter_mut().zip(others) {
-                layer.name.clone_from(&other.name);
-                layer.model = with_names(&layer.model, &other.model);
-            }
-            again.connect_layers(&*other.name, from, to, layers).area = own.area;
-        } else {
-            let model = with_names(&own.model, &other.model);
-            connect_as(&mut again, own, (&other.name, own.between), model);
-        }
+    for (own, other) in again.loads_mut().iter_mut().zip(like.loads()) {
+        own.name.clone_from(&other.name);
     }
-    for (load, other) in network.loads().iter().zip(like.loads()) {
-        again.add_load(&*other.name, load.node, load.force.clone());
-    }
-    for effect in network.effects() {
-        again.add_shared_effect(retargeted(effect, &names)?);
+    let names = opposite(network, like);
+    for effect in again.effects_mut() {
+        *effect = retargeted(effect, &names)?;
     }
     Ok(Some(again))
 }
 
-/// Connects two nodes as in another network, with a size of the same kind.
-pub(super) fn connect_as(
-    network: &mut Network,
-    like: &Connection,
-    (name, [from, to]): (&str, [NodeId; 2]),
-    model: Model,
-) {
-    let connection = network.connect(name, from, to, model);
-    (connection.thickness, connection.area) = (like.thickness, like.area);
-    connection.pads.clone_from(&like.pads);
+/// The names of nodes and elements of one network with those at the same places in another.
+pub(super) fn opposite<'n>(network: &'n Network, like: &'n Network) -> HashMap<&'n str, &'n str> {
+    let nodes = network.nodes().zip(like.nodes());
+    let nodes = nodes.map(|((_, own), (_, other))| (own.name.as_str(), other.name.as_str()));
+    let elements = network.connections().iter().zip(like.connections());
+    let elements = elements.map(|(own, other)| (own.name.as_str(), other.name.as_str()));
+    nodes.chain(elements).collect()
 }
 
 /// The gravitational acceleration \[m/s²\] in a network, where gravity is on.
@@ -87,35 +76,15 @@ pub(super) fn speed_of_fall(network: &Network, height: f64) -> f64 {
 
 /// The model with the names of branches of another, as far as both have the same shape.
 pub(super) fn with_names(model: &Model, like: &Model) -> Model {
-    // The places of both at which names are to be found, in the order in which a fold meets them.
-    let mut names: Vec<Vec<String>> = Vec::new();
-    let mut left = vec![(model, Some(like))];
-    while let Some((own, other)) = left.pop() {
-        if matches!(own, Tree::Part(_)) {
-            continue;
-        }
-        let fits = |other: &&Model| {
-            other.branches().len() == own.branches().len() && other.is_series() == own.is_series()
-        };
-        let other = other.filter(fits);
-        let called = other.unwrap_or(own);
-        names.push(called.branches().iter().map(|branch| branch.name.clone()).collect());
-        for (at, branch) in own.branches().iter().enumerate() {
-            let below = other.and_then(|other| other.branches().get(at));
-            left.push((&branch.tree, below.map(|branch| &branch.tree)));
-        }
+    let (own, other) = (model.branches(), like.branches());
+    if own.is_empty() || own.len() != other.len() || model.is_series() != like.is_series() {
+        return model.clone();
     }
-    // That walk goes down the last branch first, a fold puts compositions together from the first
-    // one up, so the names stand in the opposite order.
-    model.fold(
-        |element| Tree::Part(Arc::clone(element)),
-        |node, parts: Vec<Model>| {
-            let names = names.pop().unwrap_or_default();
-            let branches = names.into_iter().zip(parts);
-            let branches = branches.map(|(name, tree)| Branch::new(name, tree)).collect();
-            if node.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) }
-        },
-    )
+    let named = |(own, other): (&Branch<_>, &Branch<_>)| {
+        Branch::new(other.name.as_str(), with_names(&own.tree, &other.tree))
+    };
+    let branches = own.iter().zip(other).map(named).collect();
+    if model.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) }
 }
 
 /// The effect on the element, and at the node, of another name.

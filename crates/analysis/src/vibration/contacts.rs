@@ -141,8 +141,7 @@ impl Rest {
         let own: Vec<_> = own.filter_map(|(at, own)| Some((at, own.gravity()?))).collect();
         let weights: Vec<Detail> = own.iter().map(|own| Detail::Effect(own.0)).collect();
         let mut still = still.without(&weights);
-        let ids: Vec<_> = still.nodes().map(|node| node.0).collect();
-        ids.into_iter().for_each(|id| still.set_start(id, Start::Rest));
+        still.nodes_mut().iter_mut().for_each(|node| node.start = Start::Rest);
         for (_, acceleration) in own {
             still.add_effect(Gravity { acceleration, start: GravityStart::Equilibrium });
         }

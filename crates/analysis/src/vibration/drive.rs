@@ -116,16 +116,14 @@ impl Driven {
                 && assembly.nodes[id.index()].body == body
                 && network.node(id).support != Support::Free
         };
-        let mut driven = Network::new();
+        let mut driven = network.clone();
         let ground = network.ground();
-        for (id, node) in network.nodes().filter(|node| node.0 != ground) {
-            let support = match &node.support {
-                Support::Free => Support::Free,
-                _ if is_moved(id) => Support::Prescribed(sine.clone()),
-                Support::Fixed => Support::Fixed,
-                Support::Prescribed(_) => Support::Prescribed(Waveform::constant(0.0)),
-            };
-            driven.add_node(Node { support, ..node.clone() });
+        for (node, (id, _)) in driven.nodes_mut().iter_mut().zip(network.nodes().skip(1)) {
+            if is_moved(id) {
+                node.support = Support::Prescribed(sine.clone());
+            } else if let Support::Prescribed(motion) = &mut node.support {
+                *motion = Waveform::constant(0.0);
+            }
         }
         // The ground itself cannot move: another node takes its place.
         let moved_ground = is_moved(ground)
@@ -134,21 +132,12 @@ impl Driven {
             Some(moved) if id == ground => moved,
             _ => id,
         };
-        for connection in network.connections() {
-            let [from, to] = connection.between.map(place);
-            let (name, model) = (connection.name.clone(), connection.model.clone());
-            let copy = driven.connect(name, from, to, model);
-            copy.thickness = connection.thickness;
-            copy.area = connection.area;
-            copy.pads.clone_from(&connection.pads);
-            copy.layers.clone_from(&connection.layers);
+        for connection in driven.connections_mut() {
+            connection.between = connection.between.map(place);
         }
-        for load in network.loads().iter().filter(|_| drive.kind == DriveKind::Load) {
-            if load.name == drive.name {
-                driven.add_load(load.name.clone(), load.node, sine.clone());
-            }
-        }
-        network.effects().iter().for_each(|effect| driven.add_shared_effect(effect.clone()));
+        let loads = driven.loads_mut();
+        loads.retain(|load| drive.kind == DriveKind::Load && load.name == drive.name);
+        loads.iter_mut().for_each(|load| load.force = sine.clone());
         Ok(Self { network: driven, node: place(node) })
     }
 }

@@ -130,7 +130,7 @@ fn claim(claim: &Claim) -> impl Serialize {
 }
 
 fn member(member: &Member) -> impl Serialize {
-    let pad = member.impact.groups.padding(&Scales::CHAPTER_4);
+    let pad = member.padding();
     let point = |Extremum { time, value }| object! { value, time };
     object! {
         value: member.value,

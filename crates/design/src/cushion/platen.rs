@@ -107,8 +107,8 @@ impl Platen {
     ) -> Result<(), String> {
         let missing = || format!("there is no `{}` at every thickness", self.body);
         let id = network.node_named(&self.body).ok_or_else(missing)?;
-        network.set_mass(id, stress * self.area / self.gravity);
-        network.set_start(id, Start::Velocity(self.speed(height)));
+        network.node_mut(id).mass = stress * self.area / self.gravity;
+        network.node_mut(id).start = Start::Velocity(self.speed(height));
         for own in &self.assumed {
             match own {
                 Assumed::Gravity => network.add_effect(Gravity {

@@ -100,7 +100,7 @@ fn the_worst_of_several_tests_counts() {
         move |values: &[f64]| {
             let mut point = scene(spring(values[0]), "head.peak-acceleration");
             let head = point.network.node_named("head").unwrap();
-            point.network.set_start(head, dashpot_network::Start::Velocity(speed));
+            point.network.node_mut(head).start = dashpot_network::Start::Velocity(speed);
             Ok(point)
         }
     };

@@ -320,24 +320,6 @@ impl Network {
         connection.layers = None;
     }
 
-    /// Gives a node another mass \[kg\].
-    ///
-    /// # Panics
-    ///
-    /// When it is a node of another network.
-    pub fn set_mass(&mut self, node: NodeId, mass: f64) {
-        self.nodes[node.0].mass = mass;
-    }
-
-    /// Gives a node another start.
-    ///
-    /// # Panics
-    ///
-    /// When it is a node of another network.
-    pub fn set_start(&mut self, node: NodeId, start: Start) {
-        self.nodes[node.0].start = start;
-    }
-
     /// Lets a force \[N\] act on a node.
     pub fn add_load(&mut self, name: impl Into<String>, node: NodeId, force: Waveform) {
         self.loads.push(Load { name: name.into(), node, force });
@@ -367,6 +349,20 @@ impl Network {
         &self.nodes[id.0]
     }
 
+    /// The same, to be changed.
+    ///
+    /// # Panics
+    ///
+    /// When the id belongs to another, larger network.
+    pub fn node_mut(&mut self, id: NodeId) -> &mut Node {
+        &mut self.nodes[id.0]
+    }
+
+    /// All nodes but `ground`, to be changed.
+    pub fn nodes_mut(&mut self) -> &mut [Node] {
+        &mut self.nodes[1..]
+    }
+
     /// The node of the given name.
     pub fn node_named(&self, name: &str) -> Option<NodeId> {
         self.nodes.iter().position(|node| node.name == name).map(NodeId)
@@ -375,6 +371,11 @@ impl Network {
     /// The models between nodes.
     pub fn connections(&self) -> &[Connection] {
         &self.connections
+    }
+
+    /// The same, to be changed.
+    pub fn connections_mut(&mut self) -> &mut [Connection] {
+        &mut self.connections
     }
 
     /// What effects have put at the element of this position; see [`with_effects`](Self::with_effects).
@@ -396,8 +397,18 @@ impl Network {
         &self.loads
     }
 
+    /// The same, to be changed.
+    pub fn loads_mut(&mut self) -> &mut Vec<Load> {
+        &mut self.loads
+    }
+
     /// The effects that are on.
     pub fn effects(&self) -> &[Arc<dyn Effect>] {
         &self.effects
+    }
+
+    /// The same, to be changed.
+    pub fn effects_mut(&mut self) -> &mut Vec<Arc<dyn Effect>> {
+        &mut self.effects
     }
 }

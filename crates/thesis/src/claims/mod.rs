@@ -28,6 +28,36 @@ pub struct Claim {
     pub evidence: Vec<Table>,
 }
 
+impl Claim {
+    /// What is claimed, over cases with whether it holds in each.
+    fn over(place: &'static str, says: &'static str, cases: &[(String, bool)]) -> Self {
+        let (verdict, finding, evidence) = (Verdict::of(cases), String::new(), Vec::new());
+        Self { place, says, verdict, finding, evidence }
+    }
+
+    /// What is claimed, and whether it holds.
+    fn single(place: &'static str, says: &'static str, holds: bool) -> Self {
+        Self::over(place, says, &[(String::new(), holds)])
+    }
+
+    fn finding(self, finding: impl Into<String>) -> Self {
+        Self { finding: finding.into(), ..self }
+    }
+
+    fn shown(self, evidence: Table) -> Self {
+        Self { evidence: vec![evidence], ..self }
+    }
+
+    fn shown_by<R: IntoIterator<Item = Vec<String>>>(
+        self,
+        caption: &str,
+        header: &[&str],
+        rows: R,
+    ) -> Self {
+        self.shown(Table::new(caption, header, rows))
+    }
+}
+
 /// Whether a claim holds in the cases that it speaks of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
@@ -49,11 +79,6 @@ impl Verdict {
             count if count == cases.len() => Self::Holds,
             _ => Self::HoldsOnlyFor(good),
         }
-    }
-
-    /// The verdict over a single case.
-    pub fn single(holds: bool) -> Self {
-        if holds { Self::Holds } else { Self::DoesNotHold }
     }
 
     /// In words.
@@ -150,14 +175,6 @@ fn over<'f, C: IntoIterator<Item = String>>(
         ((symbol.clone(), holds), row([symbol].into_iter().chain(cells)))
     };
     families.map(one).unzip()
-}
-
-/// Whether both rise and fall without turning, in opposite ways.
-fn are_opposed(one: &[f64], other: &[f64]) -> bool {
-    matches!(
-        (Trend::of(one), Trend::of(other)),
-        (Trend::Rises, Trend::Falls) | (Trend::Falls, Trend::Rises)
-    )
 }
 
 fn row(cells: impl IntoIterator<Item = String>) -> Vec<String> {

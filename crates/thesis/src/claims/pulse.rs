@@ -1,8 +1,6 @@
 //! What chapter III makes of the pulse that it prescribes.
 
-use dashpot_plot::Table;
-
-use super::{Claim, Verdict, row};
+use super::{Claim, row};
 use crate::{
     Fit, GraphCase, Parameter, Pulse, Study, ThesisError, Varied, best_pulse, graph_cases,
     intersections, misfit,
@@ -28,56 +26,40 @@ fn shape(study: &Study) -> Claim {
         ("the best fit".to_owned(), least < REPRESENTS),
     ];
     let found = best.map_or_else(String::new, |Fit { pulse, misfit }| {
-        format!(
-            " The best fit, P = {} and m = {}, is off by {} %.",
-            significant(pulse.slope, 4),
-            significant(pulse.decay, 4),
-            significant(100.0 * misfit, 3)
-        )
+        let [slope, decay] = [pulse.slope, pulse.decay].map(|own| significant(own, 4));
+        let misfit = significant(100.0 * misfit, 3);
+        format!(" The best fit, P = {slope} and m = {decay}, is off by {misfit} %.")
     });
-    Claim {
-        place: "III",
-        says: "the force can be represented by A τ* e^(−m τ*)",
-        verdict: Verdict::of(&cases),
-        finding: format!(
+    Claim::over("III", "the force can be represented by A τ* e^(−m τ*)", &cases)
+        .finding(format!(
             "With A = 9.9 and m = 3.1 it is off by {} % of the force, as the root of the mean \
              square.{found} Below {} % counts as represented.",
             significant(100.0 * own, 3),
             significant(100.0 * REPRESENTS, 2)
-        ),
-        evidence: vec![fit_table(study)],
-    }
+        ))
+        .shown(fit_table(study))
 }
 
 fn energy(study: &Study) -> Claim {
-    let times = [0.5, 1.0, 2.0, 5.0];
-    let closed = |time: f64| Pulse::PRINTED.closed_energy(time).unwrap_or(f64::NAN);
-    let cases: Vec<_> = times
-        .iter()
-        .map(|time| {
-            let exact = study.printed.energy(*time);
-            (format!("τ* = {time}"), (closed(*time) / exact - 1.0).abs() < 10.0 * NEAR)
-        })
-        .collect();
-    let rows = times.iter().map(|time| {
-        let values = [closed(*time), study.printed.energy(*time)];
-        row([time.to_string()].into_iter().chain(values.map(|value| significant(value, 5))))
+    let values = [0.5, 1.0, 2.0, 5.0].map(|time| {
+        let closed = Pulse::PRINTED.closed_energy(time).unwrap_or(f64::NAN);
+        (time.to_string(), closed, study.printed.energy(time))
     });
+    let is_near = |closed: f64, exact: f64| (closed / exact - 1.0).abs() < 10.0 * NEAR;
+    let cases = values
+        .each_ref()
+        .map(|(time, closed, exact)| (format!("τ* = {time}"), is_near(*closed, *exact)));
+    let rows = values
+        .map(|(time, closed, exact)| vec![time, significant(closed, 5), significant(exact, 5)]);
     let checks = Pulse::PRINTED.checks();
-    Claim {
-        place: "III",
-        says: "3.59 is another way to compute the energy",
-        verdict: Verdict::of(&cases),
-        finding: format!(
-            "In the end it gives {}, more than the {} that the impactor brings: a force that is \
-             prescribed need not keep the energy. Its impulse is {} of the impactor's. Within 10 % of \
-             the exact energy counts as another way.",
-            significant(checks.energy, 6),
-            0.5,
-            significant(checks.impulse, 4)
-        ),
-        evidence: vec![Table::new("Energy ω", &["τ*", "by 3.59", "exact"], rows)],
-    }
+    let (energy, impulse) = (significant(checks.energy, 6), significant(checks.impulse, 4));
+    Claim::over("III", "3.59 is another way to compute the energy", &cases)
+        .finding(format!(
+            "In the end it gives {energy}, more than the 0.5 that the impactor brings: a force that is \
+             prescribed need not keep the energy. Its impulse is {impulse} of the impactor's. Within \
+             10 % of the exact energy counts as another way."
+        ))
+        .shown_by("Energy ω", &["τ*", "by 3.59", "exact"], rows)
 }
 
 fn left_out_term() -> Claim {
@@ -86,12 +68,10 @@ fn left_out_term() -> Claim {
     let end = pulse.final_deformation();
     let (printed, own) = (pulse.left_out(2.0), deepest - end);
     let rows = [("ν τ* = 20, τ* = 2", printed), ("its own time", own)]
-        .map(|(at, term)| row([at.to_owned(), significant(term, 3)]));
-    Claim {
-        place: "III",
-        says: "the second term of 3.54 can be neglected: the largest deformation is L1",
-        verdict: Verdict::single((own / deepest).abs() < 0.1 * NEAR),
-        finding: format!(
+        .map(|(at, term)| vec![at.to_owned(), significant(term, 3)]);
+    let says = "the second term of 3.54 can be neglected: the largest deformation is L1";
+    Claim::single("III", says, (own / deepest).abs() < 0.1 * NEAR)
+        .finding(format!(
             "Of the prescribed pulse the largest deformation is {}, and L1 is {}. At its own time, \
              τ* = {}, the term is {} times as large as at ν τ* = 20 and τ* = 2, as L3 τ* + L4 nearly \
              vanishes there; still it does not matter.",
@@ -99,9 +79,8 @@ fn left_out_term() -> Claim {
             significant(end, 7),
             significant(time, 4),
             significant((own / printed).abs(), 2)
-        ),
-        evidence: vec![Table::new("The term that is left out", &["at", "term"], rows.to_vec())],
-    }
+        ))
+        .shown_by("The term that is left out", &["at", "term"], rows)
 }
 
 fn limit(study: &Study) -> Result<Claim, ThesisError> {
@@ -114,60 +93,59 @@ fn limit(study: &Study) -> Result<Claim, ThesisError> {
         let simple = pulse.limit(parameter).unwrap_or(f64::NAN);
         let symbol = varied.symbol().to_owned();
         cases.push((symbol.clone(), (simple / exact - 1.0).abs() < NEAR));
-        words.push(format!(
-            "{symbol} = {} where the exact impact has {}",
-            significant(simple, 5),
-            significant(exact, 5)
-        ));
-        rows.push(row([symbol, significant(simple, 7), significant(exact, 7)]));
+        let values = [simple, exact];
+        let words_of = values.map(|value| significant(value, 5));
+        words.push(format!("{symbol} = {}", words_of.join(" where the exact impact has ")));
+        rows.push(row([symbol].into_iter().chain(values.map(|value| significant(value, 7)))));
     }
     let same = study.printed.deepest().value / pulse.final_deformation() - 1.0;
-    Ok(Claim {
-        place: "III",
-        says: "3.55 gives the value of a parameter with which the largest deformation is 1",
-        verdict: Verdict::of(&cases),
-        finding: format!(
-            "It gives {}. The group a has no part in it. At base the exact deformation is {} % larger \
+    Ok(Claim::over(
+        "III",
+        "3.55 gives the value of a parameter with which the largest deformation is 1",
+        &cases,
+    )
+    .finding(format!(
+        "It gives {}. The group a has no part in it. At base the exact deformation is {} % larger \
              than L1.",
-            listed(&words),
-            significant(100.0 * same, 2)
-        ),
-        evidence: vec![Table::new(
-            "Value with which the largest deformation is the thickness",
-            &["group", "by 3.55", "exact"],
-            rows,
-        )],
-    })
+        listed(&words),
+        significant(100.0 * same, 2)
+    ))
+    .shown_by(
+        "Value with which the largest deformation is the thickness",
+        &["group", "by 3.55", "exact"],
+        rows,
+    ))
 }
 
 fn turning_time() -> Claim {
     let pulse = Pulse::PRINTED;
-    let exact = pulse.turning_times();
-    let lambert = pulse.turning_times_by_lambert().unwrap_or_default();
+    let first = |times: Vec<f64>| times.first().copied();
+    let exact = first(pulse.turning_times());
+    let lambert = pulse.turning_times_by_lambert().and_then(first);
     let simple = pulse.approximate_turning_time();
-    let part = pulse.constants().map_or(f64::NAN, |own| own.l3 / own.l4);
-    let first = exact.first().copied().unwrap_or(f64::NAN);
-    let is_near = simple.is_some_and(|simple| (simple / first - 1.0).abs() < 10.0 * NEAR);
-    let cell = |own: Option<f64>| own.map_or_else(|| "none".to_owned(), |at| significant(at, 6));
-    let rows = vec![
-        row(["root of ξ′".to_owned(), cell(exact.first().copied())]),
-        row(["Lambert's W".to_owned(), cell(lambert.first().copied())]),
-        row(["3.49".to_owned(), cell(simple)]),
-        row(["L3 τ*/L4 there".to_owned(), significant(part * first, 6)]),
-    ];
-    Claim {
-        place: "III",
-        says: "3.49 gives the time of the largest deformation",
-        verdict: Verdict::single(is_near),
-        finding: format!(
-            "For the thesis' own numbers it gives {}, where the deformation is largest at {}: it needs \
-             |L3 τ*| small beside L4, and L3 τ*/L4 is {}. Lambert's W gives the time in closed form.",
-            cell(simple),
-            significant(first, 5),
-            significant(part * first, 5)
-        ),
-        evidence: vec![Table::new("Time of the largest deformation", &["by", "τ*"], rows)],
-    }
+    let part = pulse.constants().zip(exact).map(|(own, exact)| own.l3 / own.l4 * exact);
+    let pair = simple.zip(exact);
+    let is_near = pair.is_some_and(|(simple, exact)| (simple / exact - 1.0).abs() < 10.0 * NEAR);
+    let cell = |own: Option<f64>, digits| {
+        own.map_or_else(|| "none".to_owned(), |at| significant(at, digits))
+    };
+    let rows = [
+        ("root of ξ′", exact),
+        ("Lambert's W", lambert),
+        ("3.49", simple),
+        ("L3 τ*/L4 there", part),
+    ]
+    .map(|(name, value)| vec![name.to_owned(), cell(value, 6)]);
+    Claim::single("III", "3.49 gives the time of the largest deformation", is_near)
+        .finding(format!(
+            "For the thesis' own numbers it gives {}, where the deformation is largest at {}: it \
+             needs |L3 τ*| small beside L4, and L3 τ*/L4 is {}. Lambert's W gives the time in closed \
+             form.",
+            cell(simple, 6),
+            cell(exact, 5),
+            cell(part, 5)
+        ))
+        .shown_by("Time of the largest deformation", &["by", "τ*"], rows)
 }
 
 fn graph() -> Claim {
@@ -192,22 +170,16 @@ fn graph() -> Claim {
         rows.push(row(cells.chain([count.to_string(), shown])));
     }
     let nu = pulse.constants().map_or(f64::NAN, |own| own.nu);
-    Claim {
-        place: "III, figure 4",
-        says: "every real root of 3.39 is a time at which the deformation is largest",
-        verdict: Verdict::of(&cases),
-        finding: format!(
-            "With the thesis' m = {} and ν = {}, times after the first contact are negative values of \
-             z = (m − ν) τ*, so a root with z > 0 lies before it. A falling line has one root, but no \
-             time by {}.",
+    let says = "every real root of 3.39 is a time at which the deformation is largest";
+    let header = ["line", "what", "P", "m", "θ", "ψ", "roots", "times τ* > 0"];
+    Claim::over("III, figure 4", says, &cases)
+        .finding(format!(
+            "With the thesis' m = {} and ν = {}, times after the first contact are negative values \
+             of z = (m − ν) τ*, so a root with z > 0 lies before it. A falling line has one root, but \
+             no time by {}.",
             significant(pulse.decay, 3),
             significant(nu, 3),
             listed(&before)
-        ),
-        evidence: vec![Table::new(
-            "Roots of e^z = θ z + ψ, and the times among them",
-            &["line", "what", "P", "m", "θ", "ψ", "roots", "times τ* > 0"],
-            rows,
-        )],
-    }
+        ))
+        .shown_by("Roots of e^z = θ z + ψ, and the times among them", &header, rows)
 }

@@ -1,50 +1,36 @@
 //! Which way the peak force and the energy go with each parameter.
 
-use dashpot_plot::Table;
-
-use super::{Claim, Mark, Trend, Verdict, row};
+use super::{Claim, Mark, Trend, row};
 use crate::{
-    Family, Member, Scales, Study, Varied,
+    Family, Scales, Study,
     words::{change, listed, significant},
 };
 
-/// What the thesis recommends of each parameter: high or low.
-const GROUPS: [(Varied, Trend); 4] = [
-    (Varied::A, Trend::Rises),
-    (Varied::B, Trend::Rises),
-    (Varied::C, Trend::Rises),
-    (Varied::D, Trend::Falls),
-];
-const CONSTANTS: [(Varied, Trend); 4] = [
-    (Varied::K1, Trend::Rises),
-    (Varied::K2, Trend::Rises),
-    (Varied::C1, Trend::Falls),
-    (Varied::C2, Trend::Falls),
-];
+/// What the thesis recommends of a, b, c and d, and of K1, K2, C1 and C2: high or low.
+const OF_GROUPS: [Trend; 4] = [Trend::Rises, Trend::Rises, Trend::Rises, Trend::Falls];
+const OF_CONSTANTS: [Trend; 4] = [Trend::Rises, Trend::Rises, Trend::Falls, Trend::Falls];
 
 pub(super) fn claims(study: &Study) -> Vec<Claim> {
+    let groups = || study.groups.iter().zip(OF_GROUPS);
+    let constants = || study.constants.iter().zip(OF_CONSTANTS);
     vec![
-        peak(study, GROUPS, "raising a, b or c, or lowering d, lowers the peak force"),
+        peak(groups(), "V, VI.3", "raising a, b or c, or lowering d, lowers the peak force"),
         energy(
-            study,
-            GROUPS,
+            groups(),
+            "V, VI.3",
             "raising a, b or c, or lowering d, makes the padding take up more energy early on",
         ),
         peak(
-            study,
-            CONSTANTS,
+            constants(),
+            "V, VI.3, D",
             "the highest springs K1, K2 and the lowest dashpots C1, C2 give the lowest peak force",
         ),
         energy(
-            study,
-            CONSTANTS,
+            constants(),
+            "V, VI.3, D",
             "the highest springs and the lowest dashpots take up the most energy early on",
         ),
     ]
-}
-
-fn chosen(study: &Study, of: [(Varied, Trend); 4]) -> impl Iterator<Item = (&Family, Trend)> {
-    of.into_iter().filter_map(|(varied, wish)| Some((study.family(varied)?, wish)))
 }
 
 /// Whether values of a family, in the order of its parameter, rise where the parameter is moved as
@@ -55,97 +41,69 @@ fn follows(values: &[f64], wish: Trend, falls: bool) -> bool {
 }
 
 /// First and last value, with a word where the way between is not one way.
-fn span(values: &[f64]) -> String {
-    let [first, .., last] = values else { return String::new() };
+fn span(values: &[f64; 5]) -> String {
     let way = if Trend::of(values) == Trend::TurnsAround { ", turns around" } else { "" };
-    format!("{} → {}{way}", significant(*first, 4), significant(*last, 4))
+    format!("{} → {}{way}", significant(values[0], 4), significant(values[4], 4))
 }
 
 /// The range of a family's parameter.
 fn range(family: &Family) -> String {
-    let text =
-        |at: Option<&Member>| at.map_or_else(String::new, |own| family.varied.text(own.value));
-    format!("{} → {}", text(family.members.first()), text(family.members.last()))
+    let [first, .., last] = family.varied.values().map(|own| family.varied.text(own));
+    format!("{first} → {last}")
 }
 
-fn total(values: &[f64]) -> f64 {
-    values.first().zip(values.last()).map_or(f64::NAN, |(first, last)| last / first - 1.0)
+/// The change over a family in percent.
+fn total(values: &[f64; 5]) -> String {
+    change(values[4] / values[0] - 1.0)
 }
 
-fn place(of: [(Varied, Trend); 4]) -> &'static str {
-    if of == GROUPS { "V, VI.3" } else { "V, VI.3, D" }
-}
-
-fn peak(study: &Study, of: [(Varied, Trend); 4], says: &'static str) -> Claim {
+fn peak<'f>(
+    families: impl Iterator<Item = (&'f Family, Trend)>,
+    place: &'static str,
+    says: &'static str,
+) -> Claim {
     let (mut cases, mut rows, mut words) = (Vec::new(), Vec::new(), Vec::new());
-    for (family, wish) in chosen(study, of) {
-        let symbol = family.varied.symbol();
+    for (family, wish) in families {
+        let symbol = family.varied.symbol().to_owned();
         let peaks = family.each(|own| own.peak().value);
-        cases.push((symbol.to_owned(), follows(&peaks, wish, true)));
-        let kilonewtons: Vec<f64> =
-            peaks.iter().map(|peak| peak * Scales::CHAPTER_4.force() / 1e3).collect();
-        let changed = change(total(&peaks));
-        words.push(format!("{} changes it by {changed}", range_of(symbol, family)));
-        rows.push(row([
-            symbol.to_owned(),
-            range(family),
-            span(&peaks),
-            span(&kilonewtons),
-            changed,
-        ]));
+        cases.push((symbol.clone(), follows(&peaks, wish, true)));
+        let kilonewtons = peaks.map(|peak| peak * Scales::CHAPTER_4.force() / 1e3);
+        let (range, changed) = (range(family), total(&peaks));
+        words.push(format!("{symbol} {range} changes it by {changed}"));
+        rows.push(vec![symbol, range, span(&peaks), span(&kilonewtons), changed]);
     }
-    Claim {
-        place: place(of),
-        says,
-        verdict: Verdict::of(&cases),
-        finding: format!("{}.", listed(&words)),
-        evidence: vec![Table::new(
-            "Peak force over each family",
-            &["parameter", "range", "φ max", "kN in chapter IV", "change"],
-            rows,
-        )],
-    }
+    Claim::over(place, says, &cases).finding(format!("{}.", listed(&words))).shown_by(
+        "Peak force over each family",
+        &["parameter", "range", "φ max", "kN in chapter IV", "change"],
+        rows,
+    )
 }
 
-fn range_of(symbol: &str, family: &Family) -> String {
-    format!("{symbol} {}", range(family))
-}
-
-fn energy(study: &Study, of: [(Varied, Trend); 4], says: &'static str) -> Claim {
-    let (mut cases, mut rows, mut words) = (Vec::new(), Vec::new(), Vec::new());
-    for (family, wish) in chosen(study, of) {
-        let symbol = family.varied.symbol();
-        let each = Mark::ALL.map(|mark| (mark, family.each(|own| mark.energy(own))));
-        let good = each.iter().filter(|own| follows(&own.1, wish, false));
-        let good: Vec<String> = good.map(|good| good.0.text()).collect();
-        if good.len() == each.len() {
-            cases.push((symbol.to_owned(), true));
-        } else if good.is_empty() {
-            cases.push((symbol.to_owned(), false));
-        } else {
-            cases.push((format!("{symbol} ({})", good.join(", ")), true));
-            cases.push((symbol.to_owned(), false));
-        }
-        let changes: Vec<String> = each
-            .iter()
-            .map(|own| format!("{} at {}", change(total(&own.1)), own.0.text()))
-            .collect();
-        words.push(format!("{}: {}", range_of(symbol, family), changes.join(", ")));
-        let spans = each.iter().map(|own| span(&own.1));
-        rows.push(row([symbol.to_owned(), range(family)].into_iter().chain(spans)));
-    }
-    Claim {
-        place: place(of),
-        says,
-        verdict: Verdict::of(&cases),
-        finding: format!("Energy over the range: {}.", words.join("; ")),
-        evidence: vec![energies(rows)],
-    }
-}
-
-fn energies(rows: Vec<Vec<String>>) -> Table {
+fn energy<'f>(
+    families: impl Iterator<Item = (&'f Family, Trend)>,
+    place: &'static str,
+    says: &'static str,
+) -> Claim {
     let marks = Mark::ALL.map(Mark::text);
-    let header: Vec<&str> =
-        ["parameter", "range"].into_iter().chain(marks.iter().map(String::as_str)).collect();
-    Table::new("Energy ω in the padding over each family", &header, rows)
+    let (mut cases, mut rows, mut words) = (Vec::new(), Vec::new(), Vec::new());
+    for (family, wish) in families {
+        let symbol = family.varied.symbol().to_owned();
+        let each = Mark::ALL.map(|mark| family.each(|own| mark.energy(own)));
+        let named = marks.iter().zip(&each);
+        let good = named.clone().filter(|own| follows(own.1, wish, false));
+        let good: Vec<&str> = good.map(|own| own.0.as_str()).collect();
+        if !good.is_empty() && good.len() < each.len() {
+            cases.push((format!("{symbol} ({})", good.join(", ")), true));
+        }
+        cases.push((symbol.clone(), good.len() == each.len()));
+        let changes: Vec<String> =
+            named.map(|(mark, own)| format!("{} at {mark}", total(own))).collect();
+        let range = range(family);
+        words.push(format!("{symbol} {range}: {}", changes.join(", ")));
+        rows.push(row([symbol, range].into_iter().chain(each.iter().map(span))));
+    }
+    let header = ["parameter", "range"].into_iter().chain(marks.iter().map(String::as_str));
+    Claim::over(place, says, &cases)
+        .finding(format!("Energy over the range: {}.", words.join("; ")))
+        .shown_by("Energy ω in the padding over each family", &header.collect::<Vec<_>>(), rows)
 }

@@ -2,7 +2,7 @@
 
 use dashpot_plot::{Chart, Direction, Marker, Pattern, ReferenceLine, Series};
 
-use super::{Column, Drawing, Figure};
+use super::{Column, Figure};
 use crate::{
     Family, Groups, Impact, Member, Scales, Study,
     words::{short, significant},
@@ -12,137 +12,122 @@ use crate::{
 const END: f64 = 5.0;
 const POINTS: u32 = 500;
 
-/// What is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Deformation,
-    Force,
-    StressStrain,
-    Energy,
+/// What is drawn over what.
+struct Kind {
+    /// Number of the first figure.
+    first: usize,
+    /// The title in the thesis, `_` being the letter of the parameter.
+    title: &'static str,
+    heading: &'static str,
+    /// Places of the abscissa and the ordinate in a [`State`].
+    axes: [usize; 2],
+    /// The line at the thickness.
+    limit: Option<Direction>,
 }
 
-const KINDS: [Kind; 4] = [Kind::Deformation, Kind::Force, Kind::StressStrain, Kind::Energy];
+const KINDS: [Kind; 4] = [
+    Kind {
+        first: 5,
+        title: "Padding deformation history during impact, effect of parameter _",
+        heading: "Deformation over time",
+        axes: [0, 1],
+        limit: Some(Direction::Horizontal),
+    },
+    Kind {
+        first: 9,
+        title: "Impact force as a function of time with _ as parameter",
+        heading: "Force over time",
+        axes: [0, 2],
+        limit: None,
+    },
+    Kind {
+        first: 13,
+        title: "Stress-strain response as a function of parameter _",
+        heading: "Force over deformation",
+        axes: [1, 2],
+        limit: Some(Direction::Vertical),
+    },
+    Kind {
+        first: 17,
+        title: "Energy absorption with _ as parameter",
+        heading: "Energy over time",
+        axes: [0, 3],
+        limit: None,
+    },
+];
 
-impl Kind {
-    /// The title in the thesis.
-    fn title(self, symbol: &str) -> String {
-        match self {
-            Self::Deformation => {
-                format!("Padding deformation history during impact, effect of parameter {symbol}")
-            }
-            Self::Force => {
-                format!("Impact force as a function of time with {symbol} as parameter")
-            }
-            Self::StressStrain => {
-                format!("Stress-strain response as a function of parameter {symbol}")
-            }
-            Self::Energy => format!("Energy absorption with {symbol} as parameter"),
-        }
-    }
+/// τ*, ξ, φ and ω.
+type State = [f64; 4];
+const LABELS: [&str; 4] = ["τ*", "deformation ξ", "force φ", "energy ω"];
+const COLUMNS: [&str; 4] = ["tau*", "xi", "phi", "omega"];
 
-    fn heading(self) -> &'static str {
-        match self {
-            Self::Deformation => "Deformation over time",
-            Self::Force => "Force over time",
-            Self::StressStrain => "Force over deformation",
-            Self::Energy => "Energy over time",
-        }
-    }
-
-    fn labels(self) -> [&'static str; 2] {
-        match self {
-            Self::Deformation => ["τ*", "deformation ξ"],
-            Self::Force => ["τ*", "force φ"],
-            Self::StressStrain => ["deformation ξ", "force φ"],
-            Self::Energy => ["τ*", "energy ω"],
-        }
-    }
-
-    /// The point of the curve at τ*, with the energy until then.
-    fn point(self, impact: &Impact, time: f64, energy: f64) -> (f64, f64) {
-        match self {
-            Self::Deformation => (time, impact.deformation(time)),
-            Self::Force => (time, impact.force(time)),
-            Self::StressStrain => (impact.deformation(time), impact.force(time)),
-            Self::Energy => (time, energy),
-        }
-    }
+fn state(impact: &Impact, time: f64, energy: f64) -> State {
+    [time, impact.deformation(time), impact.force(time), energy]
 }
 
 /// The figures in their order: a, b, c and d of each kind.
 pub(super) fn figures(study: &Study) -> Vec<Figure> {
-    let curves: Vec<Vec<Vec<[f64; 4]>>> = study
-        .groups
-        .iter()
-        .map(|family| family.members.iter().map(|member| samples(&member.impact)).collect())
-        .collect();
-    let mut all = Vec::new();
-    for (row, kind) in KINDS.into_iter().enumerate() {
-        for (at, family) in study.groups.iter().enumerate() {
-            let number = 5 + study.groups.len() * row + at;
-            all.push(figure(number, kind, family, &curves[at]));
-        }
-    }
-    all
+    let families = study.groups.each_ref().map(|family| (family, family.each(samples)));
+    let of = |kind: &Kind| {
+        let numbered = families.iter().enumerate();
+        let figures = numbered.map(|(at, own)| figure(kind.first + at, kind, own));
+        figures.collect::<Vec<_>>()
+    };
+    KINDS.iter().flat_map(of).collect()
 }
 
-/// τ*, ξ, φ and ω.
-fn samples(impact: &Impact) -> Vec<[f64; 4]> {
+fn samples(impact: &Impact) -> Vec<State> {
     let time = |at: u32| END * f64::from(at) / f64::from(POINTS);
     let mut energy = 0.0;
-    let mut all = Vec::with_capacity(POINTS as usize + 1);
-    for at in 0..=POINTS {
+    let state = |at: u32| {
         if at > 0 {
             energy += impact.energy_between(time(at - 1), time(at));
         }
-        let own = time(at);
-        all.push([own, impact.deformation(own), impact.force(own), energy]);
-    }
-    all
+        state(impact, time(at), energy)
+    };
+    (0..=POINTS).map(state).collect()
 }
 
-fn figure(number: usize, kind: Kind, family: &Family, curves: &[Vec<[f64; 4]>]) -> Figure {
+fn figure(number: usize, kind: &Kind, own: &(&Family, [Vec<State>; 5])) -> Figure {
+    let (family, curves) = own;
     let symbol = family.varied.symbol();
-    let title = kind.title(symbol);
-    let [x_label, y_label] = kind.labels();
-    let of = |own: &[f64; 4]| match kind {
-        Kind::Deformation => (own[0], own[1]),
-        Kind::Force => (own[0], own[2]),
-        Kind::StressStrain => (own[1], own[2]),
-        Kind::Energy => (own[0], own[3]),
-    };
-    let series = family.members.iter().zip(curves).enumerate().map(|(colour, (member, curve))| {
+    let [x, y] = kind.axes;
+    let members = || family.members.iter().zip(curves);
+    let series = members().enumerate().map(|(colour, (member, curve))| {
         let pattern = if member.exceeds() { Pattern::Dashed } else { Pattern::Solid };
-        Series::drawn(legend(family, member), (colour, pattern), curve.iter().map(of))
+        let points = curve.iter().map(|own| (own[x], own[y]));
+        Series::drawn(legend(family, member), (colour, pattern), points)
     });
     let marker = |member: &Member| {
-        let time = member.impact.meets_thickness().filter(|time| *time <= END)?;
-        let (x, y) = kind.point(&member.impact, time, member.impact.energy(time));
-        Some(Marker { x, y, label: format!("{}: ξ = 1", value(family, member)) })
+        let own = &member.impact;
+        let time = own.meets_thickness().filter(|time| *time <= END)?;
+        let state = state(own, time, own.energy(time));
+        let label = format!("{}: ξ = 1", family.varied.equals(member.value));
+        Some(Marker { x: state[x], y: state[y], label })
     };
     let line = |direction| ReferenceLine::new(direction, 1.0, "thickness");
-    let lines = match kind {
-        Kind::Deformation => vec![line(Direction::Horizontal)],
-        Kind::StressStrain => vec![line(Direction::Vertical)],
-        Kind::Force | Kind::Energy => Vec::new(),
-    };
     let chart = Chart {
-        title: format!("Figure {number}. {}, {symbol} varied", kind.heading()),
+        title: format!("Figure {number}. {}, {symbol} varied", kind.heading),
         note: note(),
-        x_label: x_label.to_owned(),
-        y_label: y_label.to_owned(),
+        x_label: LABELS[x].to_owned(),
+        y_label: LABELS[y].to_owned(),
         family: family.members.len(),
         series: series.collect(),
         markers: family.members.iter().filter_map(marker).collect(),
-        lines,
+        lines: kind.limit.into_iter().map(line).collect(),
         ..Chart::default()
     };
-    Figure {
-        number,
-        title,
-        drawing: Drawing::Chart(Box::new(chart)),
-        columns: columns(kind, family, curves),
-    }
+    let column = |curve: &[State], at: usize, what: &str| Column {
+        name: format!("{}{what} [1]", COLUMNS[at]),
+        values: curve.iter().map(|own| own[at]).collect(),
+    };
+    let shown = || kind.axes.into_iter().filter(|at| *at > 0);
+    let columns = members().flat_map(|(member, curve)| {
+        let value = format!(" at {symbol} = {}", short(member.value, 6));
+        shown().map(move |at| column(curve, at, &value))
+    });
+    let columns = [column(&curves[0], 0, "")].into_iter().chain(columns).collect();
+    Figure::of_chart(number, &kind.title.replace('_', symbol), chart, columns)
 }
 
 fn note() -> String {
@@ -152,10 +137,6 @@ fn note() -> String {
         "Base: a {a}, b {b}, c = e = {c}, d {d}, α {alpha}, β {beta}, γ {gamma}; {milliseconds} ms are 1 \
          of τ*"
     )
-}
-
-fn value(family: &Family, member: &Member) -> String {
-    format!("{} = {}", family.varied.symbol(), family.varied.text(member.value))
 }
 
 /// The padding of a curve in SI units, q, and the largest deformation.
@@ -168,27 +149,5 @@ fn legend(family: &Family, member: &Member) -> String {
     let q = significant(member.impact.groups.q(), 3);
     let deepest = significant(member.impact.deepest().value, 3);
     let mark = if member.exceeds() { ", exceeds" } else { "" };
-    format!("{}: {pad}q {q}, ξmax {deepest}{mark}", value(family, member))
-}
-
-fn columns(kind: Kind, family: &Family, curves: &[Vec<[f64; 4]>]) -> Vec<Column> {
-    let column = |name: String, of: usize, curve: &[[f64; 4]]| Column {
-        name,
-        values: curve.iter().map(|own| own[of]).collect(),
-    };
-    let mut all: Vec<Column> =
-        curves.first().map(|curve| column("tau* [1]".to_owned(), 0, curve)).into_iter().collect();
-    let wanted: &[(&str, usize)] = match kind {
-        Kind::Deformation => &[("xi", 1)],
-        Kind::Force => &[("phi", 2)],
-        Kind::StressStrain => &[("xi", 1), ("phi", 2)],
-        Kind::Energy => &[("omega", 3)],
-    };
-    for (member, curve) in family.members.iter().zip(curves) {
-        let value = format!("{} = {}", family.varied.symbol(), short(member.value, 6));
-        for (name, of) in wanted {
-            all.push(column(format!("{name} at {value} [1]"), *of, curve));
-        }
-    }
-    all
+    format!("{}: {pad}q {q}, ξmax {deepest}{mark}", family.varied.equals(member.value))
 }

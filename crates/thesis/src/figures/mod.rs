@@ -51,6 +51,16 @@ pub const EQUATIONS: [&str; 5] = [
 ];
 
 impl Figure {
+    fn of_network(number: usize, title: &str, network: Network) -> Self {
+        let drawing = Drawing::Network(network);
+        Self { number, title: title.to_owned(), drawing, columns: Vec::new() }
+    }
+
+    fn of_chart(number: usize, title: &str, chart: Chart, columns: Vec<Column>) -> Self {
+        let drawing = Drawing::Chart(Box::new(chart));
+        Self { number, title: title.to_owned(), drawing, columns }
+    }
+
     /// Name of its file without an ending, as in `figure-05`.
     pub fn stem(&self) -> String {
         format!("figure-{:02}", self.number)
@@ -61,12 +71,12 @@ impl Figure {
 ///
 /// # Errors
 ///
-/// [`ThesisError::NoPadding`], [`ThesisError::Rheometer`] and [`ThesisError::EquivalentModel`] for
+/// [`ThesisError::Similarity`], [`ThesisError::Rheometer`] and [`ThesisError::EquivalentModel`] for
 /// paddings that do not exist; that of chapter IV does.
 pub fn figures(study: &Study) -> Result<Vec<Figure>, ThesisError> {
     let mut all = vec![networks::impact(study)?, networks::load_hold_unload()?, networks::graph()];
     all.extend(families::figures(study));
-    all.push(networks::equivalent()?);
+    all.push(networks::equivalent(study)?);
     Ok(all)
 }
 

@@ -2,14 +2,12 @@
 //! the equivalent model.
 
 use dashpot_analysis::rheometer::{LoadHoldUnload, ProtocolKind, RheometerReport, Specimen};
-use dashpot_network::Network;
 use dashpot_plot::{Chart, Marker, Series};
-use dashpot_rheology::{Branch, Tree, appendix_a::SpringDashpot};
 
-use super::{Column, Drawing, Figure};
+use super::{Column, Figure};
 use crate::{
-    Groups, Padding, Pulse, Scales, Study, Support, ThesisError,
-    groups::{burgers, maxwell},
+    Padding, Pulse, Scales, Study, ThesisError,
+    groups::{in_parallel, two_maxwell},
     lambert::intersections,
     words::{short, significant},
 };
@@ -19,33 +17,15 @@ const FORCE: f64 = 20e3;
 const HOLD: f64 = 1e-3;
 const END: f64 = 2.5e-3;
 
-/// The impact of chapter IV in SI units.
-fn network(groups: &Groups) -> Result<Network, ThesisError> {
-    let none = || ThesisError::NoPadding { q: groups.q() };
-    groups.network(&Scales::CHAPTER_4).ok_or_else(none)
-}
-
 pub(super) fn impact(study: &Study) -> Result<Figure, ThesisError> {
-    Ok(Figure {
-        number: 1,
-        title: "Schematic of impact system".to_owned(),
-        drawing: Drawing::Network(network(&study.system.groups)?),
-        columns: Vec::new(),
-    })
+    let network = study.system.groups.network(&Scales::CHAPTER_4)?;
+    Ok(Figure::of_network(1, "Schematic of impact system", network))
 }
 
-pub(super) fn equivalent() -> Result<Figure, ThesisError> {
-    let two = burgers(Padding::CHAPTER_4).to_two_maxwell()?;
-    let branch =
-        |name: &str, own: SpringDashpot| Branch::new(name, maxwell(own.spring, own.dashpot));
-    let pad = Tree::Parallel(vec![branch("slow", two.slow), branch("fast", two.fast)]);
-    let groups = Groups::of(&Scales::CHAPTER_4, &Padding::CHAPTER_4, &Support::CHAPTER_4);
-    Ok(Figure {
-        number: 21,
-        title: "An equivalent model".to_owned(),
-        drawing: Drawing::Network(groups.network_with(&Scales::CHAPTER_4, pad)),
-        columns: Vec::new(),
-    })
+pub(super) fn equivalent(study: &Study) -> Result<Figure, ThesisError> {
+    let pad = in_parallel(two_maxwell(Padding::CHAPTER_4)?);
+    let network = study.system.groups.network_with(&Scales::CHAPTER_4, pad);
+    Ok(Figure::of_network(21, "An equivalent model", network))
 }
 
 /// The names of the parts in the thesis.
@@ -74,7 +54,7 @@ pub(super) fn load_hold_unload() -> Result<Figure, ThesisError> {
         let points = times.iter().zip(&own.model).map(|(time, value)| (1e3 * time, 1e3 * value));
         Series::new(part(own.name), points.collect())
     });
-    let title = "Stress-strain characteristic of four parameter padding system".to_owned();
+    let title = "Stress-strain characteristic of four parameter padding system";
     let chart = Chart {
         title: "Figure 2. Load, hold and unload of the padding".to_owned(),
         note: "A force of 20 kN is put on, held for 1 ms and taken away.".to_owned(),
@@ -86,12 +66,7 @@ pub(super) fn load_hold_unload() -> Result<Figure, ThesisError> {
     let time = Column { name: "time [s]".to_owned(), values: times.clone() };
     let columns = of_length()
         .map(|own| Column { name: format!("{} [m]", own.name), values: own.model.clone() });
-    Ok(Figure {
-        number: 2,
-        title,
-        drawing: Drawing::Chart(Box::new(chart)),
-        columns: [time].into_iter().chain(columns).collect(),
-    })
+    Ok(Figure::of_chart(2, title, chart, [time].into_iter().chain(columns).collect()))
 }
 
 /// A pulse whose straight line is drawn, or counted.
@@ -159,7 +134,7 @@ pub(super) fn graph() -> Figure {
         column(&name, own.points.iter().map(|point| point.1).collect())
     });
     let columns = [column("z", places.clone())].into_iter().chain(lines).collect();
-    let title = "Graphical solution to equation 3.39".to_owned();
+    let title = "Graphical solution to equation 3.39";
     let chart = Chart {
         title: format!("Figure 4. {title}"),
         note: "z = (m − ν) τ* with ν = 10: times after the first contact are to the left of z = 0."
@@ -170,5 +145,5 @@ pub(super) fn graph() -> Figure {
         markers,
         ..Chart::default()
     };
-    Figure { number: 4, title, drawing: Drawing::Chart(Box::new(chart)), columns }
+    Figure::of_chart(4, title, chart, columns)
 }

@@ -2,11 +2,12 @@
 
 mod tables;
 
+use dashpot_analysis::similarity::{self, SimilarityError};
 use dashpot_plot::Table;
 
 use crate::{
-    Fit, Groups, Padding, Parameter, Pulse, Scales, Study, Support, best_pulse,
-    words::{change, listed, short, significant},
+    Fit, Groups, Padding, Parameter, Pulse, Scales, Study, Support, ThesisError, best_pulse,
+    words::{change, extremes, listed, short, significant},
 };
 
 pub use tables::{chapter_3_table, exact_table, fit_table};
@@ -83,12 +84,16 @@ impl NumberVerdict {
 }
 
 /// All numbers of the thesis in the order of the text.
-pub fn numbers(study: &Study) -> Vec<Number> {
-    let mut all = chapters_1_and_2();
+///
+/// # Errors
+///
+/// As [`Impact::of_groups`](crate::Impact::of_groups); the thesis' own numbers give none.
+pub fn numbers(study: &Study) -> Result<Vec<Number>, ThesisError> {
+    let mut all = chapters_1_and_2()?;
     all.extend(chapter_3(study));
     all.extend(chapter_4());
     all.extend(chapter_5(study));
-    all
+    Ok(all)
 }
 
 /// A number that is judged by its digits; `plain` are the printed ones.
@@ -107,47 +112,20 @@ fn given(place: &'static str, what: &'static str, printed: &'static str) -> Numb
     Number { place, what, printed, recomputed: String::new(), value: f64::NAN, verdict }
 }
 
-/// Powers of mass, length and time in m₁, V₀, δ, g, m₂, K₁, K₂, C₁, C₂, m₃, K₃ and C₃.
-const DIMENSIONS: [[i32; 3]; 12] = [
-    [1, 0, 0],
-    [0, 1, -1],
-    [0, 1, 0],
-    [0, 1, -2],
-    [1, 0, 0],
-    [1, 0, -2],
-    [1, 0, -2],
-    [1, 0, -1],
-    [1, 0, -1],
-    [1, 0, 0],
-    [1, 0, -2],
-    [1, 0, -1],
-];
-
-/// How many independent dimensions the parameters have: three if any three of them are independent.
-fn independent_dimensions() -> usize {
-    let all = &DIMENSIONS;
-    let determinant = |x: [i32; 3], y: [i32; 3], z: [i32; 3]| {
-        x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
-            + x[2] * (y[0] * z[1] - y[1] * z[0])
-    };
-    let is_full =
-        all.iter().any(|x| all.iter().any(|y| all.iter().any(|z| determinant(*x, *y, *z) != 0)));
-    if is_full { 3 } else { 2 }
-}
-
-fn chapters_1_and_2() -> Vec<Number> {
-    let independent = independent_dimensions();
-    let groups = DIMENSIONS.len() - independent;
-    let count = |count: usize| count as f64;
-    vec![
+fn chapters_1_and_2() -> Result<Vec<Number>, ThesisError> {
+    // The impact of chapter II, with gravity and a mass m₂.
+    let whole = Groups { gravity: 1e-3, share: 0.5, ..Groups::PRINTED };
+    let all = similarity::Groups::of(&whole.network(&Scales::CHAPTER_4)?)
+        .map_err(SimilarityError::from)?;
+    let counts = [all.references.len(), all.rank(), all.groups.len()];
+    let [references, rank, groups] = counts.map(|count| count as f64);
+    Ok(vec![
         given("1.1", "exponent n of the severity index", "2.5"),
-        judged("2.27–2.36", "groups, of which c and e are the same", ("ten", "10"), {
-            count(groups + 1)
-        }),
-        judged("II", "parameters of the impact", ("twelve", "12"), count(DIMENSIONS.len())),
-        judged("II", "fundamental dimensions", ("three", "3"), count(independent)),
-        judged("II", "independent groups", ("nine", "9"), count(groups)),
-    ]
+        judged("2.27–2.36", "groups, of which c and e are the same", ("ten", "10"), groups + 1.0),
+        judged("II", "parameters of the impact", ("twelve", "12"), references + groups),
+        judged("II", "fundamental dimensions", ("three", "3"), rank),
+        judged("II", "independent groups", ("nine", "9"), groups),
+    ])
 }
 
 fn chapter_3(study: &Study) -> Vec<Number> {
@@ -225,11 +203,10 @@ fn chapter_4() -> Vec<Number> {
 
 fn chapter_5(study: &Study) -> Vec<Number> {
     let changes = study.energy_changes(0.01);
-    let percent = |own: &f64| 100.0 * own;
-    let least = changes.iter().map(|change| percent(&change.1)).fold(f64::INFINITY, f64::min);
-    let most = changes.iter().map(|change| percent(&change.1)).fold(0.0, f64::max);
-    let within = changes.iter().filter(|change| (3.0..=7.0).contains(&percent(&change.1)));
-    let within: Vec<String> = within.map(|within| within.0.to_owned()).collect();
+    let changes = changes.map(|(group, by)| (group, 100.0 * by));
+    let [least, most] = extremes(changes.map(|own| own.1));
+    let within = changes.into_iter().filter(|own| (3.0..=7.0).contains(&own.1));
+    let within: Vec<String> = within.map(|own| own.0.to_owned()).collect();
     vec![
         Number {
             place: "V",
@@ -289,6 +266,10 @@ mod tests {
 
     #[test]
     fn twelve_parameters_have_nine_groups() {
-        assert_eq!(independent_dimensions(), 3);
+        let numbers = chapters_1_and_2().unwrap();
+        assert_eq!(
+            numbers[1..].iter().map(|own| own.value).collect::<Vec<_>>(),
+            [10.0, 12.0, 3.0, 9.0]
+        );
     }
 }

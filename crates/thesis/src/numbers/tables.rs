@@ -4,7 +4,7 @@ use std::f64::consts::E;
 
 use dashpot_plot::Table;
 
-use crate::{Fit, Impact, Parameter, Pulse, Study, best_pulse, misfit, words::significant};
+use crate::{Checks, Fit, Impact, Parameter, Pulse, Study, best_pulse, misfit, words::significant};
 
 /// What chapter III has no numbers for: its constants and results for the padding of chapter IV.
 pub fn chapter_3_table() -> Table {
@@ -68,51 +68,23 @@ pub fn exact_table(study: &Study) -> Table {
 /// The best-fitting pulse beside the one that is printed.
 pub fn fit_table(study: &Study) -> Table {
     let own = &study.printed;
+    let of_fit = |Fit { pulse, misfit }: Fit| {
+        let (Pulse { slope, decay, .. }, checks) = (pulse, pulse.checks());
+        let (peak, deepest) = (slope / (decay * E), pulse.deepest().1);
+        let Checks { impulse, start_slope: start, energy, .. } = checks;
+        [slope, decay, peak, 1.0 / decay, misfit, impulse, start, energy, deepest]
+    };
     let printed = Fit { pulse: Pulse::PRINTED, misfit: misfit(own, &Pulse::PRINTED) };
-    let named = [Some(("thesis", printed)), best_pulse(own).map(|best| ("best fit", best))];
-    let rows = named.into_iter().flatten().map(|(name, fit)| {
-        let Pulse { slope, decay, .. } = fit.pulse;
-        let checks = fit.pulse.checks();
-        let values = [
-            slope,
-            decay,
-            slope / (decay * E),
-            1.0 / decay,
-            fit.misfit,
-            checks.impulse,
-            checks.start_slope,
-            checks.energy,
-            fit.pulse.deepest().1,
-        ];
-        let texts = values.into_iter().map(|value| significant(value, 4));
-        [name.to_owned()].into_iter().chain(texts).collect()
+    let (peak, end, slope) = (own.peak(), own.end(), own.groups.c);
+    let (impulse, energy) = (1.0 - own.impactor_speed(end), own.energy(end));
+    let deepest = own.deepest().value;
+    let exact = [slope, f64::NAN, peak.value, peak.time, 0.0, impulse, 1.0, energy, deepest];
+    let best = best_pulse(own).map(|best| ("best fit", of_fit(best)));
+    let rows = [Some(("thesis", of_fit(printed))), best, Some(("exact impact", exact))];
+    let rows = rows.into_iter().flatten().map(|(name, values)| {
+        [name.to_owned()].into_iter().chain(values.map(|own| significant(own, 4))).collect()
     });
-    let peak = own.peak();
-    let impulse = 1.0 - own.impactor_speed(own.end());
-    let exact = [
-        own.groups.c,
-        f64::NAN,
-        peak.value,
-        peak.time,
-        0.0,
-        impulse,
-        1.0,
-        own.energy(own.end()),
-        own.deepest().value,
-    ];
-    let exact = exact.into_iter().map(|value| significant(value, 4));
-    let exact = [["exact impact".to_owned()].into_iter().chain(exact).collect::<Vec<_>>()];
-    let header = [
-        "pulse",
-        "P",
-        "m",
-        "peak φ",
-        "at τ*",
-        "misfit",
-        "impulse",
-        "start slope / e",
-        "energy",
-        "ξ max",
-    ];
-    Table::new("The pulse P τ e^(−mτ) that stands for the force", &header, rows.chain(exact))
+    let of_force = ["pulse", "P", "m", "peak φ", "at τ*", "misfit"];
+    let header = of_force.into_iter().chain(["impulse", "start slope / e", "energy", "ξ max"]);
+    Table::new("The pulse P τ e^(−mτ) that stands for the force", header, rows)
 }

@@ -81,15 +81,22 @@ impl FourParameterGroups {
         let of_c = between(2.0 * d / (a + root), d * (a + root) / (2.0 * b));
         let of_d = between(2.0 * b * c / (a + root), c * (a + root) / 2.0);
         let most = (a - d / c) * d / c;
-        Ranges { a: (b * c / d + d / c, f64::INFINITY), b: between(0.0, most), c: of_c, d: of_d }
+        Ranges([Some((b * c / d + d / c, f64::INFINITY)), between(0.0, most), of_c, of_d])
     }
 
     /// The padding with these groups (appendix D): `K₂ = c m₁/J²`, `C₂ = d m₁/(b J)`,
-    /// `C₁ = c m₁/(q J)`, `K₁ = d m₁/(q J²)`. `None` where q ≤ 0.
-    pub fn padding(&self, scales: &ImpactScales) -> Option<FourParameterPadding> {
+    /// `C₁ = c m₁/(q J)`, `K₁ = d m₁/(q J²)`.
+    ///
+    /// # Errors
+    ///
+    /// [`SimilarityError::NoPadding`] where q ≤ 0.
+    pub fn padding(&self, scales: &ImpactScales) -> Result<FourParameterPadding, SimilarityError> {
         let q = self.q();
+        if !(q > 0.0 && q.is_finite()) {
+            return Err(SimilarityError::NoPadding { q, ranges: Box::new(self.ranges()) });
+        }
         let (j, m1) = (scales.time(), scales.mass);
-        (q > 0.0).then(|| FourParameterPadding {
+        Ok(FourParameterPadding {
             k1: self.d * m1 / (q * j * j),
             c1: self.c * m1 / (q * j),
             k2: self.c * m1 / (j * j),
@@ -107,30 +114,33 @@ impl FourParameterGroups {
         }
     }
 
-    /// The groups with others in place of those named `A`, `B`, `a`, `b`, `c`, `d`, `alpha`, `beta`,
-    /// `gamma` (or `α`, `β`, `γ`).
+    /// Letters of the groups, in the order of the thesis.
+    pub const LETTERS: [&str; 9] = ["A", "B", "a", "b", "c", "d", "alpha", "beta", "gamma"];
+
+    /// The groups in the order of their [letters](Self::LETTERS).
+    fn values_mut(&mut self) -> [&mut f64; 9] {
+        let Self { gravity, share, a, b, c, d, alpha, beta, gamma } = self;
+        [gravity, share, a, b, c, d, alpha, beta, gamma]
+    }
+
+    /// The groups with another in place of that of this letter; `α`, `β`, `γ` stand for their names, and `e` for `c`.
     ///
     /// # Errors
     ///
     /// [`SimilarityError::UnknownQuantity`] for any other name.
     pub fn with(mut self, name: &str, value: f64) -> Result<Self, SimilarityError> {
-        let place = match name {
-            "A" => &mut self.gravity,
-            "B" => &mut self.share,
-            "a" => &mut self.a,
-            "b" => &mut self.b,
-            "c" | "e" => &mut self.c,
-            "d" => &mut self.d,
-            "alpha" | "α" => &mut self.alpha,
-            "beta" | "β" => &mut self.beta,
-            "gamma" | "γ" => &mut self.gamma,
-            _ => {
-                let known = ["A", "B", "a", "b", "c", "d", "alpha", "beta", "gamma"];
-                let known = known.map(str::to_owned).to_vec();
-                return Err(SimilarityError::UnknownQuantity { name: name.to_owned(), known });
-            }
+        let letter = match name {
+            "e" => "c",
+            "α" => "alpha",
+            "β" => "beta",
+            "γ" => "gamma",
+            own => own,
         };
-        *place = value;
+        let at = Self::LETTERS.iter().position(|own| *own == letter).ok_or_else(|| {
+            let known = Self::LETTERS.map(str::to_owned).to_vec();
+            SimilarityError::UnknownQuantity { name: name.to_owned(), known }
+        })?;
+        *self.values_mut()[at] = value;
         Ok(self)
     }
 
@@ -140,29 +150,18 @@ impl FourParameterGroups {
     ///
     /// [`SimilarityError::GroupOutOfRange`] and [`SimilarityError::NoPadding`].
     pub fn validate(&self) -> Result<(), SimilarityError> {
-        const POSITIVE: &str = "finite and positive";
-        const NOT_NEGATIVE: &str = "finite, zero or positive";
-        let is_positive = |own: f64| own > 0.0 && own.is_finite();
-        let is_not_negative = |own: f64| own >= 0.0 && own.is_finite();
-        let checks = [
-            ("A", self.gravity, "finite", self.gravity.is_finite()),
-            ("B", self.share, "above 0 and up to 1", self.share > 0.0 && self.share <= 1.0),
-            ("a", self.a, POSITIVE, is_positive(self.a)),
-            ("b", self.b, POSITIVE, is_positive(self.b)),
-            ("c", self.c, POSITIVE, is_positive(self.c)),
-            ("d", self.d, POSITIVE, is_positive(self.d)),
-            ("alpha", self.alpha, NOT_NEGATIVE, is_not_negative(self.alpha)),
-            ("beta", self.beta, NOT_NEGATIVE, is_not_negative(self.beta)),
-            ("gamma", self.gamma, POSITIVE, is_positive(self.gamma)),
-        ];
-        if let Some(&(name, value, range, _)) = checks.iter().find(|check| !check.3) {
-            return Err(SimilarityError::GroupOutOfRange { name, value, range });
+        let mut own = *self;
+        for (name, value) in Self::LETTERS.into_iter().zip(own.values_mut().map(|own| *own)) {
+            let (range, is_within) = match name {
+                "A" => ("finite", true),
+                "B" => ("above 0 and up to 1", value > 0.0 && value <= 1.0),
+                "alpha" | "beta" => ("finite, zero or positive", value >= 0.0),
+                _ => ("finite and positive", value > 0.0),
+            };
+            if !(is_within && value.is_finite()) {
+                return Err(SimilarityError::GroupOutOfRange { name, value, range });
+            }
         }
-        let q = self.q();
-        if q > 0.0 && q.is_finite() {
-            Ok(())
-        } else {
-            Err(SimilarityError::NoPadding { q, ranges: Box::new(self.ranges()) })
-        }
+        self.padding(&ImpactScales::UNIT).map(|_| ())
     }
 }

@@ -26,30 +26,16 @@ use super::SimilarityError;
 pub struct FourParameterImpact {
     /// Names of the impactor, the padding, the support and its mount.
     pub names: [String; 4],
-    /// Mass of the impactor m₁ \[kg\].
-    pub mass: f64,
-    /// Its speed V₀ \[m/s\].
-    pub speed: f64,
-    /// Thickness of the padding δ \[m\].
-    pub thickness: f64,
+    /// Mass, speed and thickness.
+    pub scales: ImpactScales,
     /// Mass of the face of the padding m₂ \[kg\], ≥ 0.
     pub face_mass: f64,
     /// Gravitational acceleration g \[m/s²\], which acts on each mass; 0 where gravity is off.
     pub gravity: f64,
-    /// Spring of the Kelvin–Voigt element K₁ \[N/m\].
-    pub k1: f64,
-    /// Dashpot of the Kelvin–Voigt element C₁ \[N s/m\].
-    pub c1: f64,
-    /// Spring in a row K₂ \[N/m\].
-    pub k2: f64,
-    /// Dashpot in a row C₂ \[N s/m\].
-    pub c2: f64,
-    /// Mass of the support m₃ \[kg\].
-    pub support_mass: f64,
-    /// Spring of the mount K₃ \[N/m\], ≥ 0.
-    pub support_stiffness: f64,
-    /// Dashpot of the mount C₃ \[N s/m\], ≥ 0.
-    pub support_damping: f64,
+    /// Its padding.
+    pub padding: FourParameterPadding,
+    /// Its support.
+    pub support: FourParameterSupport,
 }
 
 impl FourParameterImpact {
@@ -62,47 +48,20 @@ impl FourParameterImpact {
         networks::read(network).map_err(|reason| SimilarityError::OtherForm { reason })
     }
 
-    /// What its groups refer to.
-    pub fn scales(&self) -> ImpactScales {
-        ImpactScales { mass: self.mass, speed: self.speed, thickness: self.thickness }
-    }
-
-    /// Its padding.
-    pub fn padding(&self) -> FourParameterPadding {
-        FourParameterPadding { k1: self.k1, c1: self.c1, k2: self.k2, c2: self.c2 }
-    }
-
-    /// Its support.
-    pub fn support(&self) -> FourParameterSupport {
-        FourParameterSupport {
-            mass: self.support_mass,
-            stiffness: self.support_stiffness,
-            damping: self.support_damping,
-        }
-    }
-
-    /// `J = δ/V0` \[s\].
-    pub fn time(&self) -> f64 {
-        self.scales().time()
-    }
-
     /// `p1 = C1/C2`, `p2 = K1/K2`, `p3 = K2 J/C2`, `p4 = m1/(J C2)`.
     pub fn ratios(&self) -> [f64; 4] {
-        let time = self.time();
-        [
-            self.c1 / self.c2,
-            self.k1 / self.k2,
-            self.k2 * time / self.c2,
-            self.mass / (time * self.c2),
-        ]
+        let FourParameterPadding { k1, c1, k2, c2 } = self.padding;
+        let time = self.scales.time();
+        [c1 / c2, k1 / k2, k2 * time / c2, self.scales.mass / (time * c2)]
     }
 
     /// Its groups.
     pub fn groups(&self) -> FourParameterGroups {
+        let ImpactScales { mass, speed, thickness } = self.scales;
         FourParameterGroups {
-            gravity: self.gravity * self.thickness / (self.speed * self.speed),
-            share: self.mass / (self.mass + self.face_mass),
-            ..FourParameterGroups::of(&self.scales(), &self.padding(), &self.support())
+            gravity: self.gravity * thickness / (speed * speed),
+            share: mass / (mass + self.face_mass),
+            ..FourParameterGroups::of(&self.scales, &self.padding, &self.support)
         }
     }
 
@@ -115,38 +74,21 @@ impl FourParameterImpact {
     #[expect(clippy::float_cmp, reason = "what stays is the same to the last digit")]
     pub fn with_groups(&self, groups: &FourParameterGroups) -> Result<Self, SimilarityError> {
         groups.validate()?;
-        let (before, scales) = (self.groups(), self.scales());
-        let of_padding = |four_parameter_groups: &FourParameterGroups| {
-            [
-                four_parameter_groups.a,
-                four_parameter_groups.b,
-                four_parameter_groups.c,
-                four_parameter_groups.d,
-            ]
-        };
-        let of_support = |four_parameter_groups: &FourParameterGroups| {
-            [four_parameter_groups.alpha, four_parameter_groups.beta, four_parameter_groups.gamma]
-        };
+        let (before, scales) = (self.groups(), &self.scales);
+        let of_padding = |own: &FourParameterGroups| [own.a, own.b, own.c, own.d];
+        let of_support = |own: &FourParameterGroups| [own.alpha, own.beta, own.gamma];
         let mut again = self.clone();
         if of_padding(groups) != of_padding(&before) {
-            let none = || {
-                let (q, ranges) = (groups.q(), Box::new(groups.ranges()));
-                SimilarityError::NoPadding { q, ranges }
-            };
-            let FourParameterPadding { k1, c1, k2, c2 } =
-                groups.padding(&scales).ok_or_else(none)?;
-            (again.k1, again.c1, again.k2, again.c2) = (k1, c1, k2, c2);
+            again.padding = groups.padding(scales)?;
         }
         if of_support(groups) != of_support(&before) {
-            let FourParameterSupport { mass, stiffness, damping } = groups.support(&scales);
-            again.support_mass = mass;
-            (again.support_stiffness, again.support_damping) = (stiffness, damping);
+            again.support = groups.support(scales);
         }
         if [groups.share] != [before.share] {
-            again.face_mass = face_mass(groups.share, &scales);
+            again.face_mass = face_mass(groups.share, scales);
         }
         if [groups.gravity] != [before.gravity] {
-            again.gravity = acceleration(groups.gravity, &scales);
+            again.gravity = acceleration(groups.gravity, scales);
         }
         Ok(again)
     }
@@ -155,17 +97,20 @@ impl FourParameterImpact {
     /// thesis, and gravity with the support in balance.
     pub fn network(&self) -> Network {
         let beside = (self.face_mass, self.gravity);
-        let model = self.padding().model();
-        network(&self.names, &self.scales(), model, &self.support(), beside)
+        network(&self.names, &self.scales, self.padding.model(), &self.support, beside)
     }
 }
 
 impl FourParameterGroups {
-    /// The impact with these groups: `head` on `padding` on `panel` on `mount`. `None` where q ≤ 0.
+    /// The impact with these groups: `head` on `padding` on `panel` on `mount`.
     ///
     /// The weight of the support is borne by its spring from the beginning, as in 2.9.
-    pub fn network(&self, scales: &ImpactScales) -> Option<Network> {
-        Some(self.network_with(scales, self.padding(scales)?.model()))
+    ///
+    /// # Errors
+    ///
+    /// [`SimilarityError::NoPadding`] where q ≤ 0.
+    pub fn network(&self, scales: &ImpactScales) -> Result<Network, SimilarityError> {
+        Ok(self.network_with(scales, self.padding(scales)?.model()))
     }
 
     /// The same with another model as the padding.

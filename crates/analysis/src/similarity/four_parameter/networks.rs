@@ -12,11 +12,11 @@ use dashpot_network::{
 };
 use dashpot_rheology::{Branch, Tree};
 
-use super::{FourParameterGroups, FourParameterImpact, FourParameterPadding, face, weight};
-use crate::similarity::{
-    SimilarityError,
-    names::{connect_as, speed_of_fall},
+use super::{
+    FourParameterGroups, FourParameterImpact, FourParameterPadding, FourParameterSupport,
+    ImpactScales, face, weight,
 };
+use crate::similarity::{SimilarityError, names::speed_of_fall};
 
 /// A drawing of the padding stands for it if its constants come back within this, relatively.
 const SAME: f64 = 1e-9;
@@ -36,39 +36,32 @@ impl FourParameterGroups {
     pub fn put_into(&self, network: &Network) -> Result<Network, SimilarityError> {
         let before = FourParameterImpact::of(network)?;
         let after = before.with_groups(self)?;
-        let mut again = Network::new();
-        for (id, node) in network.nodes().filter(|node| node.0 != network.ground()) {
-            let mut node = node.clone();
-            if network.node(id).name == after.names[2] {
-                node.mass = after.support_mass;
+        let mut again = network.clone();
+        for node in again.nodes_mut() {
+            if node.name == after.names[2] {
+                node.mass = after.support.mass;
             } else if [before.gravity] != [after.gravity] && matches!(node.start, Start::Drop(_)) {
                 // The speed at touch stays, from another height.
-                let height = after.speed * after.speed / (2.0 * after.gravity);
+                let speed = after.scales.speed;
                 node.start = if after.gravity > 0.0 {
-                    Start::Drop(height)
+                    Start::Drop(speed * speed / (2.0 * after.gravity))
                 } else {
-                    Start::Velocity(after.speed)
+                    Start::Velocity(speed)
                 };
             }
-            again.add_node(node);
         }
-        for own in network.connections() {
-            let model = if own.name == after.names[1] {
-                padding(&own.model, &before.padding(), &after.padding())
-            } else if before.support() == after.support() {
-                own.model.clone()
-            } else {
-                after.support().mount()
-            };
-            connect_as(&mut again, own, (&own.name, own.between), model);
+        for own in again.connections_mut() {
+            if own.name == after.names[1] {
+                own.model = padding(&own.model, &before.padding, &after.padding);
+            } else if before.support != after.support {
+                own.model = after.support.mount();
+            }
         }
-        for effect in network.effects() {
+        for effect in again.effects_mut() {
             if let Some(own) = effect.of_kind::<Gravity>() {
-                again.add_effect(Gravity { acceleration: after.gravity, ..*own });
+                *effect = Arc::new(Gravity { acceleration: after.gravity, ..*own });
             } else if let Some(own) = effect.of_kind::<Face>() {
-                again.add_effect(Face { mass: after.face_mass, ..own.clone() });
-            } else {
-                again.add_shared_effect(Arc::clone(effect));
+                *effect = Arc::new(Face { mass: after.face_mass, ..own.clone() });
             }
         }
         let has = |kind: &str| network.effects().iter().any(|effect| effect.kind() == kind);
@@ -88,10 +81,10 @@ fn padding(model: &Model, before: &FourParameterPadding, after: &FourParameterPa
         return model.clone();
     }
     let drawn = redrawn(model, after);
+    let of = |own: &FourParameterPadding| [own.k1, own.c1, own.k2, own.c2];
     let is_same = constants(&drawn).is_some_and(|found| {
-        let FourParameterPadding { k1, c1, k2, c2 } = *after;
-        let pairs = found.iter().zip([k1, c1, k2, c2]);
-        pairs.into_iter().all(|(found, own)| (found - own).abs() <= SAME * own)
+        let mut pairs = of(&found).into_iter().zip(of(after));
+        pairs.all(|(found, own)| (found - own).abs() <= SAME * own)
     });
     if is_same { drawn } else { after.model() }
 }
@@ -124,8 +117,8 @@ fn redrawn(model: &Model, own: &FourParameterPadding) -> Model {
     both.0
 }
 
-/// K₁, C₁, K₂ and C₂ of a linear model that is a spring, a dashpot and a Kelvin–Voigt element in a row from outside.
-pub(super) fn constants(model: &Model) -> Option<[f64; 4]> {
+/// The constants of a linear model that is a spring, a dashpot and a Kelvin–Voigt element in a row from outside.
+fn constants(model: &Model) -> Option<FourParameterPadding> {
     if first_nonlinear(model).is_some() {
         return None;
     }
@@ -134,8 +127,12 @@ pub(super) fn constants(model: &Model) -> Option<[f64; 4]> {
     let elements = form.elements();
     let [only] = elements.as_slice() else { return None };
     let (compliance, fluidity) = (form.spring_compliance(), form.fluidity());
-    (compliance > 0.0 && fluidity > 0.0)
-        .then(|| [only.stiffness, only.damping, compliance.recip(), fluidity.recip()])
+    (compliance > 0.0 && fluidity > 0.0).then(|| FourParameterPadding {
+        k1: only.stiffness,
+        c1: only.damping,
+        k2: compliance.recip(),
+        c2: fluidity.recip(),
+    })
 }
 
 /// The impact that a network is, or what is different.
@@ -173,8 +170,15 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
         return Err("it has more than two elements");
     }
     let thickness = padding.thickness.ok_or("the padding has no thickness")?;
-    let [k1, c1, k2, c2] = burgers(padding)?;
-    let (support_stiffness, support_damping) = holder(mount)?;
+    if padding.layers.is_some() {
+        return Err("the padding is made of layers");
+    }
+    if first_nonlinear(&padding.model).is_some() {
+        return Err("the padding is not linear");
+    }
+    let names = [&head.1.name, &padding.name, &panel.1.name, &mount.name].map(String::clone);
+    let padding = constants(&padding.model).ok_or("the padding is no four-parameter model")?;
+    let (stiffness, damping) = holder(mount)?;
     let (face_mass, gravity) = effects(network, &head.1.name)?;
     let speed = match head.1.start {
         Start::Velocity(speed) => speed,
@@ -185,31 +189,13 @@ pub(super) fn read(network: &Network) -> Result<FourParameterImpact, &'static st
         return Err("the impactor does not move towards the support");
     }
     Ok(FourParameterImpact {
-        names: [&head.1.name, &padding.name, &panel.1.name, &mount.name].map(String::clone),
-        mass: head.1.mass,
-        speed,
-        thickness,
+        names,
+        scales: ImpactScales { mass: head.1.mass, speed, thickness },
         face_mass,
         gravity,
-        k1,
-        c1,
-        k2,
-        c2,
-        support_mass: panel.1.mass,
-        support_stiffness,
-        support_damping,
+        padding,
+        support: FourParameterSupport { mass: panel.1.mass, stiffness, damping },
     })
-}
-
-/// K1, C1, K2, C2 of a padding.
-fn burgers(padding: &Connection) -> Result<[f64; 4], &'static str> {
-    if padding.layers.is_some() {
-        return Err("the padding is made of layers");
-    }
-    if first_nonlinear(&padding.model).is_some() {
-        return Err("the padding is not linear");
-    }
-    constants(&padding.model).ok_or("the padding is no four-parameter model")
 }
 
 /// K3 and C3 of the mount.

@@ -95,28 +95,20 @@ fn kelvin_voigt(stiffness: f64, damping: f64) -> Model {
 }
 
 /// The open ranges of `a`, `b`, `c` and `d`, each with the others as they are, in which there is a
-/// padding; `None` where there is one for no value.
+/// padding; `None` where there is one for no value. That of `a` has no upper end.
 ///
 /// Shown as `a > 16.667; 0 < b < 166.67; no c; no d`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ranges {
-    /// That of `a`, which has no upper end.
-    pub a: (f64, f64),
-    /// That of `b`.
-    pub b: Option<(f64, f64)>,
-    /// That of `c`.
-    pub c: Option<(f64, f64)>,
-    /// That of `d`.
-    pub d: Option<(f64, f64)>,
-}
+pub struct Ranges(pub [Option<(f64, f64)>; 4]);
 
 impl fmt::Display for Ranges {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a > {}", five(self.a.0))?;
-        for (name, range) in [("b", self.b), ("c", self.c), ("d", self.d)] {
+        for (name, range) in ["a", "; b", "; c", "; d"].into_iter().zip(self.0) {
+            let (stop, letter) = name.split_at(name.len() - 1);
             match range {
-                Some((from, to)) => write!(f, "; {} < {name} < {}", five(from), five(to))?,
-                None => write!(f, "; no {name}")?,
+                Some((from, f64::INFINITY)) => write!(f, "{stop}{letter} > {}", five(from))?,
+                Some((from, to)) => write!(f, "{stop}{} < {letter} < {}", five(from), five(to))?,
+                None => write!(f, "{stop}no {letter}")?,
             }
         }
         Ok(())

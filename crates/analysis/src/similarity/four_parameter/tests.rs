@@ -50,7 +50,7 @@ fn largest_force(four_parameter_groups: &FourParameterGroups) -> f64 {
 #[test]
 fn networks_of_groups_solve_the_equations_of_the_thesis() {
     let impact = chapter_4();
-    let scales = impact.scales();
+    let scales = impact.scales;
     for (gravity, share) in [(0.0, 1.0), (0.1, 1.0), (0.0, 0.5), (0.1, 0.5), (0.3, 0.25)] {
         let groups = FourParameterGroups { gravity, share, ..impact.groups() };
         let expected = largest_force(&groups) * scales.force();
@@ -128,8 +128,8 @@ fn speed_at_touch_stays_under_another_gravity() {
     let own = chapter_4();
     let head = network.add_node(Node::mass("head", 10.0).dropped(5.0));
     let panel = network.add_node(Node::mass("panel", 100.0));
-    network.connect("padding", head, panel, own.padding().model()).thickness = Some(0.02);
-    network.connect("mount", panel, network.ground(), own.support().mount());
+    network.connect("padding", head, panel, own.padding.model()).thickness = Some(0.02);
+    network.connect("mount", panel, network.ground(), own.support.mount());
     network.add_effect(weight(10.0));
     let groups = FourParameterImpact::of(&network).unwrap().groups();
     assert!((groups.gravity - 0.002).abs() < 1e-16);

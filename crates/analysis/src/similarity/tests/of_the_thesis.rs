@@ -14,7 +14,7 @@ fn reference_has_the_groups_that_the_thesis_prints() {
     close(groups.beta, 2.0, 1e-14);
     close(groups.gamma, 0.1, 1e-14);
     assert!((groups.gravity, groups.share) == (0.0, 1.0));
-    close(impact.time(), 2e-3, 1e-15);
+    close(impact.scales.time(), 2e-3, 1e-15);
     let [p1, p2, p3, p4] = impact.ratios();
     close(groups.a, (1.0 + p1 + p2) * p3 / p1, 1e-15);
     close(groups.c, p3 / p4, 1e-15);
@@ -57,21 +57,21 @@ fn groups_lead_back_to_the_parameters_where_there_is_a_padding() {
     let groups = impact.groups();
     let again = impact.with_groups(&groups).unwrap();
     for (found, own) in [
-        (again.k1, 2e7),
-        (again.c1, 4e3),
-        (again.k2, 2e7),
-        (again.c2, 6e3),
-        (again.support_mass, 100.0),
-        (again.support_stiffness, 5e7),
-        (again.support_damping, 1e4),
+        (again.padding.k1, 2e7),
+        (again.padding.c1, 4e3),
+        (again.padding.k2, 2e7),
+        (again.padding.c2, 6e3),
+        (again.support.mass, 100.0),
+        (again.support.stiffness, 5e7),
+        (again.support.damping, 1e4),
     ] {
         close(found, own, 1e-12);
     }
     // The printed groups are truncated: they stand for K1 = 20.13 MN/m and C1 = 4027 N s/m.
     let printed = groups.with("a", 26.6).unwrap().with("b", 66.66).unwrap();
     let printed = impact.with_groups(&printed).unwrap();
-    close(printed.k1, 20.13e6, 5e-4);
-    close(printed.c1, 4027.0, 5e-4);
+    close(printed.padding.k1, 20.13e6, 5e-4);
+    close(printed.padding.c1, 4027.0, 5e-4);
     let solved = FourParameterImpact::of(&printed.network()).unwrap().groups();
     close(solved.a, 26.6, 1e-12);
     close(solved.b, 66.66, 1e-12);
@@ -81,11 +81,11 @@ fn groups_lead_back_to_the_parameters_where_there_is_a_padding() {
 fn paddings_exist_within_the_ranges_and_not_beyond() {
     let impact = FourParameterImpact::of(&reference()).unwrap();
     let groups = impact.groups().with("a", 26.6).unwrap().with("b", 66.66).unwrap();
-    let ranges = groups.ranges();
-    let (from, to) = ranges.c.unwrap();
+    let [a, b, c, d] = groups.ranges().0;
+    let (from, to) = c.unwrap();
     close(from, 3.361, 2e-4);
     close(to, 28.562, 2e-5);
-    let ends = [("a", Some((ranges.a.0, 1e3))), ("b", ranges.b), ("c", ranges.c), ("d", ranges.d)];
+    let ends = [("a", a.map(|own| (own.0, 1e3))), ("b", b), ("c", c), ("d", d)];
     for (name, range) in ends {
         let (from, to) = range.unwrap();
         for (value, exists) in [
@@ -99,7 +99,7 @@ fn paddings_exist_within_the_ranges_and_not_beyond() {
         }
     }
     let none = groups.with("a", 10.0).unwrap();
-    assert!(none.ranges().c.is_none() && none.ranges().d.is_none());
+    assert!(none.ranges().0[2..].iter().all(Option::is_none));
     assert!(matches!(impact.with_groups(&none), Err(SimilarityError::NoPadding { .. })));
     assert!(groups.with("f", 1.0).is_err());
 }

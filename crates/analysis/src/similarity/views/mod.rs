@@ -1,9 +1,9 @@
 //! Ways of drawing one and the same network.
 
-use std::{cmp::Ordering, collections::HashMap, sync::Arc};
+use std::{cmp::Ordering, sync::Arc};
 
 use dashpot_network::{
-    Effect, Model, Network, Node, Start, Support,
+    Effect, Model, Network, Start, Support,
     effects::{Face, Gravity},
     parameters::{InvalidParameter, Value},
 };
@@ -11,7 +11,7 @@ use dashpot_rheology::{Branch, Tree};
 
 use super::{
     FourParameterImpact,
-    names::{connect_as, gravity, retargeted, speed_of_fall, with_names},
+    names::{gravity, opposite, retargeted, speed_of_fall, with_names},
 };
 
 /// The network with the effects of another that it has not, with nothing in them: no gravity is gravity of 0, and no
@@ -21,11 +21,7 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
     if counts(network) != counts(like) {
         return Ok(network.clone());
     }
-    let nodes = like.nodes().zip(network.nodes());
-    let nodes = nodes.map(|((_, other), (_, own))| (other.name.as_str(), own.name.as_str()));
-    let elements = like.connections().iter().zip(network.connections());
-    let elements = elements.map(|(other, own)| (other.name.as_str(), own.name.as_str()));
-    let names: HashMap<&str, &str> = nodes.chain(elements).collect();
+    let names = opposite(like, network);
     let mut missing = Vec::new();
     for effect in like.effects().iter().filter_map(vanishing) {
         let nothing = retargeted(&effect, &names)?;
@@ -36,74 +32,64 @@ pub(super) fn completed(network: &Network, like: &Network) -> Result<Network, In
             missing.push(nothing);
         }
     }
-    if missing.is_empty() {
-        return Ok(network.clone());
-    }
+    let mut again = network.clone();
     // A fall without gravity has the speed that it has under the standard one.
-    let is_free = gravity(network).is_none();
-    let mut again = with_nodes(network, |node| match node.start {
-        Start::Drop(height) if is_free => {
-            Node { start: Start::Velocity(speed_of_fall(network, height)), ..node.clone() }
+    if !missing.is_empty() && gravity(network).is_none() {
+        for node in again.nodes_mut() {
+            if let Start::Drop(height) = node.start {
+                node.start = Start::Velocity(speed_of_fall(network, height));
+            }
         }
-        _ => node.clone(),
-    });
-    copy_connections(network, &mut again, false);
-    copy_rest(network, &mut again);
-    missing.into_iter().for_each(|own| again.add_shared_effect(own));
+    }
+    again.effects_mut().extend(missing);
     Ok(again)
 }
 
 /// The network seen from the other side: what was positive is negative.
 pub(super) fn mirrored(network: &Network) -> Network {
-    let mut again = with_nodes(network, |node| {
-        let start = match node.start {
+    let mut again = network.clone();
+    for node in again.nodes_mut() {
+        node.start = match node.start {
             Start::Rest => Start::Rest,
             Start::Velocity(own) => Start::Velocity(-own),
             Start::Drop(height) => Start::Velocity(-speed_of_fall(network, height)),
         };
-        let support = match &node.support {
-            Support::Prescribed(motion) => Support::Prescribed(motion.in_units(1.0, -1.0)),
-            other => other.clone(),
-        };
-        Node { start, support, ..node.clone() }
-    });
-    copy_connections(network, &mut again, true);
-    for load in network.loads() {
-        again.add_load(&*load.name, load.node, load.force.in_units(1.0, -1.0));
+        if let Support::Prescribed(motion) = &mut node.support {
+            *motion = motion.in_units(1.0, -1.0);
+        }
     }
-    for effect in network.effects() {
-        match effect.of_kind::<Gravity>() {
-            Some(own) => again.add_effect(Gravity { acceleration: -own.acceleration, ..*own }),
-            None => again.add_shared_effect(Arc::clone(effect)),
+    for own in again.connections_mut() {
+        own.between.reverse();
+        if let Some(layers) = &mut own.layers {
+            layers.all.reverse();
+            own.model = layers.model();
+        }
+    }
+    for load in again.loads_mut() {
+        load.force = load.force.in_units(1.0, -1.0);
+    }
+    for effect in again.effects_mut() {
+        if let Some(own) = effect.of_kind::<Gravity>() {
+            *effect = Arc::new(Gravity { acceleration: -own.acceleration, ..*own });
         }
     }
     again
 }
 
-/// The network with the branches of each model in one order, that of their kinds and values: within a
-/// model no order matters.
-pub(super) fn sorted(network: &Network) -> Network {
+/// The network with the branches of each model in one order, that of their kinds and values: within a model no order
+/// matters. They have the names of those at the same places in another network that is sorted, where one is given.
+pub(super) fn sorted(network: &Network, like: Option<&Network>) -> Network {
     let mut again = network.clone();
-    for (at, own) in network.connections().iter().enumerate() {
+    for (at, own) in again.connections_mut().iter_mut().enumerate() {
         // Pads within a model are told by the place of their branch.
-        if own.layers.is_none() && own.pads.is_empty() {
-            again.set_model(at, sorted_model(&own.model));
+        if own.layers.is_some() || !own.pads.is_empty() {
+            continue;
         }
-    }
-    again
-}
-
-/// [`sorted`], with the names that branches at the same places have in another network that is
-/// sorted.
-pub(super) fn sorted_like(network: &Network, like: &Network) -> Network {
-    let mut again = sorted(network);
-    for at in 0..again.connections().len() {
-        let own = &again.connections()[at];
-        let others = like.connections();
+        own.model = sorted_model(&own.model);
+        let others = like.map_or(&[][..], Network::connections);
         let other = others.iter().find(|other| other.name == own.name).or(others.get(at));
-        if let Some(other) = other.filter(|_| own.layers.is_none() && own.pads.is_empty()) {
-            let model = with_names(&own.model, &other.model);
-            again.set_model(at, model);
+        if let Some(other) = other {
+            own.model = with_names(&own.model, &other.model);
         }
     }
     again
@@ -115,7 +101,7 @@ pub(super) fn drawn_as_burgers(network: &Network) -> Option<Network> {
     let at =
         network.connections().iter().position(|connection| connection.name == impact.names[1])?;
     let mut again = network.clone();
-    again.set_model(at, impact.padding().model());
+    again.set_model(at, impact.padding.model());
     Some(again)
 }
 
@@ -167,42 +153,6 @@ fn vanishing(effect: &Arc<dyn Effect>) -> Option<Arc<dyn Effect>> {
     }
     let face = effect.of_kind::<Face>()?;
     Some(Arc::new(Face { mass: 0.0, ..face.clone() }))
-}
-
-/// A network of other nodes at the same places, with nothing between them.
-fn with_nodes(network: &Network, change: impl Fn(&Node) -> Node) -> Network {
-    let mut again = Network::new();
-    for (id, node) in network.nodes() {
-        if id != network.ground() {
-            again.add_node(change(node));
-        }
-    }
-    again
-}
-
-fn copy_connections(network: &Network, again: &mut Network, turned: bool) {
-    for own in network.connections() {
-        let [from, to] = own.between;
-        let [from, to] = if turned { [to, from] } else { [from, to] };
-        if let Some(layers) = &own.layers {
-            let mut layers = layers.clone();
-            if turned {
-                layers.all.reverse();
-            }
-            again.connect_layers(&*own.name, from, to, layers).area = own.area;
-        } else {
-            connect_as(again, own, (&own.name, [from, to]), own.model.clone());
-        }
-    }
-}
-
-fn copy_rest(network: &Network, again: &mut Network) {
-    for load in network.loads() {
-        again.add_load(&*load.name, load.node, load.force.clone());
-    }
-    for effect in network.effects() {
-        again.add_shared_effect(Arc::clone(effect));
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ mod waveforms;
 use std::sync::Arc;
 
 use dashpot_network::{
-    Connection, Effect, Element, Model, Network, Node, NodeId, Start, Support,
+    Connection, Effect, Element, Model, Network, Node, Start, Support,
     elements::ELEMENTS,
     layers::{Layer, Layers, Resolution},
     parameters::{
@@ -53,23 +53,19 @@ pub(super) trait Visit {
 /// Shows all parameters to `visit`, and makes the network of what it returns.
 /// Errors: the first value that is out of range.
 pub(super) fn walk(network: &Network, visit: &mut dyn Visit) -> Result<Network, InvalidParameter> {
-    let mut again = Network::new();
-    for (id, node) in network.nodes() {
-        if id != network.ground() {
-            let node = walk_node(network, node, visit)?;
-            again.add_node(node);
-        }
+    let mut again = network.clone();
+    for node in again.nodes_mut() {
+        walk_node(network, node, visit)?;
     }
-    for connection in network.connections() {
-        walk_connection(network, connection, &mut again, visit)?;
+    for connection in again.connections_mut() {
+        walk_connection(network, connection, visit)?;
     }
-    for load in network.loads() {
+    for load in again.loads_mut() {
         visit.word(&load.name, &format!("a load on {}", network.node(load.node).name));
-        let force = walk_waveform(&load.name, &load.force, Dimension::FORCE, visit)?;
-        again.add_load(&*load.name, load.node, force);
+        load.force = walk_waveform(&load.name, &load.force, Dimension::FORCE, visit)?;
     }
-    for effect in network.effects() {
-        again.add_shared_effect(walk_effect(effect, visit)?);
+    for effect in again.effects_mut() {
+        *effect = walk_effect(effect, visit)?;
     }
     drop_again(network, &mut again);
     Ok(again)
@@ -80,92 +76,77 @@ fn drop_again(network: &Network, again: &mut Network) {
     let (Some(_), Some(pull)) = (gravity(network), gravity(again).filter(|own| *own > 0.0)) else {
         return;
     };
-    let pairs: Vec<(NodeId, Start)> =
-        again.nodes().zip(network.nodes()).map(|((id, _), (_, old))| (id, old.start)).collect();
-    for (id, before) in pairs {
-        let speed = again.node(id).start;
-        if let (Start::Drop(_), Start::Velocity(speed)) = (before, speed) {
-            again.set_start(id, Start::Drop(0.5 * speed * speed / pull));
+    for (node, (_, before)) in again.nodes_mut().iter_mut().zip(network.nodes().skip(1)) {
+        if let (Start::Drop(_), Start::Velocity(speed)) = (before.start, node.start) {
+            node.start = Start::Drop(0.5 * speed * speed / pull);
         }
     }
 }
 
 fn walk_node(
     network: &Network,
-    node: &Node,
+    node: &mut Node,
     visit: &mut dyn Visit,
-) -> Result<Node, InvalidParameter> {
+) -> Result<(), InvalidParameter> {
     let name = &node.name;
     let mut word = if node.mass > 0.0 { "with mass" } else { "massless" }.to_owned();
-    let mass = if node.mass > 0.0 {
-        visit.quantity(&format!("{name}.mass"), Dimension::MASS, node.mass)
-    } else {
-        0.0
-    };
-    let mut velocity = |velocity: f64| {
-        word += ", an impactor";
-        visit.quantity(&format!("{name}.velocity"), Dimension::VELOCITY, velocity)
-    };
-    let start = match node.start {
-        Start::Rest => Start::Rest,
-        Start::Velocity(own) => Start::Velocity(velocity(own)),
+    if node.mass > 0.0 {
+        node.mass = visit.quantity(&format!("{name}.mass"), Dimension::MASS, node.mass);
+    }
+    let velocity = match node.start {
+        Start::Rest => None,
+        Start::Velocity(own) => Some(own),
         // Only its speed counts, and that is one parameter instead of two.
-        Start::Drop(height) => Start::Velocity(velocity(speed_of_fall(network, height))),
+        Start::Drop(height) => Some(speed_of_fall(network, height)),
     };
-    let position = match node.position {
-        0.0 => 0.0,
-        own => visit.quantity(&format!("{name}.position"), Dimension::LENGTH, own),
-    };
-    let support = match &node.support {
-        Support::Free => Support::Free,
-        Support::Fixed => {
-            word += ", fixed";
-            Support::Fixed
-        }
+    if let Some(own) = velocity {
+        word += ", an impactor";
+        let velocity = visit.quantity(&format!("{name}.velocity"), Dimension::VELOCITY, own);
+        node.start = Start::Velocity(velocity);
+    }
+    if node.position != 0.0 {
+        node.position =
+            visit.quantity(&format!("{name}.position"), Dimension::LENGTH, node.position);
+    }
+    match &mut node.support {
+        Support::Free => {}
+        Support::Fixed => word += ", fixed",
         Support::Prescribed(motion) => {
             word += ", moved";
-            Support::Prescribed(walk_motion(name, motion, visit)?)
+            *motion = walk_motion(name, motion, visit)?;
         }
-    };
+    }
     visit.word(name, &word);
-    Ok(Node { name: name.clone(), mass, support, start, position })
+    Ok(())
 }
 
 fn walk_connection(
     network: &Network,
-    connection: &Connection,
-    again: &mut Network,
+    own: &mut Connection,
     visit: &mut dyn Visit,
 ) -> Result<(), InvalidParameter> {
-    let name = connection.name.as_str();
-    let [from, to] = connection.between;
-    let ends = [from, to].map(|end| network.node(end).name.as_str());
-    visit.word(name, &format!("between {} and {}", ends[0], ends[1]));
-    if let Some(layers) = &connection.layers {
-        let layers = walk_layers(name, layers, visit)?;
-        let area = connection.area;
-        let area = area.map(|area| visit.size(AREA, area));
-        again.connect_layers(name, from, to, layers).area = area;
+    let name = own.name.as_str();
+    let [from, to] = own.between.map(|end| network.node(end).name.as_str());
+    visit.word(name, &format!("between {from} and {to}"));
+    if let Some(layers) = &mut own.layers {
+        *layers = walk_layers(name, layers, visit)?;
+        (own.thickness, own.model) = (Some(layers.thickness()), layers.model());
+        own.area = own.area.map(|area| visit.size(AREA, area));
         return Ok(());
     }
-    let thickness = connection.thickness;
-    let thickness = thickness.map(|thickness| {
+    let before = own.thickness;
+    own.thickness = before.map(|thickness| {
         visit.quantity(&format!("{name}.thickness"), Dimension::LENGTH, thickness)
     });
-    let area = connection.area.map(|area| visit.size(AREA, area));
-    let model = match connection.thickness.zip(thickness) {
-        Some((before, after)) => {
-            walk_model(name, &connection.model, &mut Pad { visit, before, after })?
-        }
-        None => walk_model(name, &connection.model, visit)?,
+    own.area = own.area.map(|area| visit.size(AREA, area));
+    own.model = match before.zip(own.thickness) {
+        Some((before, after)) => walk_model(name, &own.model, &mut Pad { visit, before, after })?,
+        None => walk_model(name, &own.model, visit)?,
     };
-    let mut pads = connection.pads.clone();
-    for pad in &mut pads {
+    for pad in &mut own.pads {
         pad.thickness = visit.size(Dimension::LENGTH, pad.thickness);
         pad.area = pad.area.map(|area| visit.size(AREA, area));
     }
-    let connection = again.connect(name, from, to, model);
-    (connection.thickness, connection.area, connection.pads) = (thickness, area, pads);
     Ok(())
 }
 

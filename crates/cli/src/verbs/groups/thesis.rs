@@ -1,6 +1,6 @@
 //! The groups of the thesis.
 
-use dashpot_analysis::similarity::{FourParameterGroups, FourParameterImpact, Ranges};
+use dashpot_analysis::similarity::{FourParameterGroups, FourParameterImpact};
 use dashpot_plot::Table;
 use serde::Serialize;
 
@@ -44,40 +44,37 @@ impl Thesis {
 
     /// The parameters of the scene by the letters of the thesis, with their units.
     fn constants(&self) -> [(&'static str, f64, &'static str); 12] {
-        let own = &self.impact;
+        let FourParameterImpact { scales, padding, support, face_mass, gravity, .. } = &self.impact;
         [
-            ("m1", own.mass, "kg"),
-            ("V0", own.speed, "m/s"),
-            ("δ", own.thickness, "m"),
-            ("m2", own.face_mass, "kg"),
-            ("g", own.gravity, "m/s^2"),
-            ("K1", own.k1, "N/m"),
-            ("C1", own.c1, "N s/m"),
-            ("K2", own.k2, "N/m"),
-            ("C2", own.c2, "N s/m"),
-            ("m3", own.support_mass, "kg"),
-            ("K3", own.support_stiffness, "N/m"),
-            ("C3", own.support_damping, "N s/m"),
+            ("m1", scales.mass, "kg"),
+            ("V0", scales.speed, "m/s"),
+            ("δ", scales.thickness, "m"),
+            ("m2", *face_mass, "kg"),
+            ("g", *gravity, "m/s^2"),
+            ("K1", padding.k1, "N/m"),
+            ("C1", padding.c1, "N s/m"),
+            ("K2", padding.k2, "N/m"),
+            ("C2", padding.c2, "N s/m"),
+            ("m3", support.mass, "kg"),
+            ("K3", support.stiffness, "N/m"),
+            ("C3", support.damping, "N s/m"),
         ]
     }
 
     /// The groups, with the ranges in which there is a padding, each with the others as they are; null
     /// is no end, or no range.
     pub(super) fn object(&self) -> impl Serialize {
-        let Ranges { a, b, c, d } = self.groups.ranges();
-        let range = |group, found: Option<(f64, f64)>| {
-            object! {
-                group,
-                from: found.map(|own| own.0),
-                to: found.map(|own| own.1).filter(|own| own.is_finite()),
-            }
-        };
+        let ranges = ["a", "b", "c", "d"].into_iter().zip(self.groups.ranges().0);
         object! {
             groups: list(self.groups().map(|(parameter, formula, value)| object! {
                 parameter, formula, value,
             })),
             q: self.groups.q(),
-            padding_for: [range("a", Some(a)), range("b", b), range("c", c), range("d", d)],
+            padding_for: list(ranges.map(|(group, found)| object! {
+                group,
+                from: found.map(|own| own.0),
+                to: found.map(|own| own.1).filter(|own| own.is_finite()),
+            })),
             parameters: list(self.constants().map(|(name, value, unit)| object! {
                 name, value, unit,
             })),
@@ -96,7 +93,7 @@ impl Thesis {
         };
         let caption = format!(
             "The groups of the thesis, J = δ/V0 = {}",
-            quantity(self.impact.time(), "s", 4)
+            quantity(self.impact.scales.time(), "s", 4)
         );
         Table::new(caption, &["", "formula", "value"], self.groups().map(row))
     }
