@@ -13,7 +13,7 @@ use std::{error::Error, f64::consts::PI};
 
 use dashpot::{
     analysis::{
-        Family, MeasureKind, MeasureReport, MeasureWish, Note, Reading, Solution, Solve,
+        MeasureKind, MeasureReport, MeasureTraits, MeasureWish, Note, Reading, Solution, Solve,
         SolveSettings, VelocityJump, measures::WINDOW,
     },
     network::{Network, Node, elements::Contact, parameters, parameters::WindowWish, spring},
@@ -29,8 +29,7 @@ parameters! {
 }
 
 impl MeasureKind for MeanForce {
-    const UNIT: &'static str = "N";
-    const APPLIES_TO: Family = Family::Element;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("N");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let force = solution.element_force(target)?;

@@ -43,7 +43,7 @@ pub use impact::sliders::SliderFault;
 pub use limits::{Bound, Judgement, Limit, Reason};
 pub use measures::exceedance::Counted;
 pub use measures::selection::{MeasureWish, ask, reported};
-pub use measures::{Family, MEASURES, Measure, MeasureKind, Reading};
+pub use measures::{Family, MEASURES, Measure, MeasureKind, MeasureTraits, Reading};
 pub use note::Note;
 pub use report::compression::Compression;
 pub use report::curves::Curves;

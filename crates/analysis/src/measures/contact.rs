@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use dashpot_network::{NodeId, parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Reading};
+use super::{MeasureKind, MeasureTraits, Reading};
 use crate::{Note, Solution, VelocityJump, impact::interval::Contact};
 
 /// Ends that meet with less than this part of the largest rate of their deformation meet without speed: what is left is
@@ -28,10 +28,7 @@ parameters! {
 }
 
 impl MeasureKind for ContactTime {
-    const UNIT: &'static str = "s";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
-    const WITHOUT_IMPACTOR: bool = false;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("s").of_impacts();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let touches = solution.touches_impactor(&solution.assembly().connections[target]);
@@ -88,10 +85,7 @@ parameters! {
 }
 
 impl MeasureKind for CoefficientOfRestitution {
-    const UNIT: &'static str = "1";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
-    const WITHOUT_IMPACTOR: bool = false;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("1").of_impacts();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connection = &solution.assembly().connections[target];

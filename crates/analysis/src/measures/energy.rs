@@ -3,7 +3,7 @@
 use dashpot_dae::Signal;
 use dashpot_network::{ConnectionOutputs, PrimitiveOutputs, parameters, parameters::WindowWish};
 
-use super::{Family, MeasureKind, Reading, reading::moved};
+use super::{MeasureKind, MeasureTraits, Reading, reading::moved};
 use crate::{
     Note, Solution, VelocityJump,
     energy::{
@@ -24,9 +24,8 @@ windowed! {
 }
 
 impl MeasureKind for Energy {
-    const UNIT: &'static str = "J";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("J").by_default();
+
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let force = solution.element_force(target)?;
         let span = solution.element_span(target, self.window)?;
@@ -44,9 +43,7 @@ parameters! {
 }
 
 impl MeasureKind for EnergyAtEnd {
-    const UNIT: &'static str = "J";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("J").by_default();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         MeasureKind::read(&Energy { window: WindowWish::Run }, solution, target)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use dashpot_network::{parameters, parameters::WindowWish};
 
 use super::{
-    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WINDOW,
+    Measure, MeasureKind, MeasureTraits, Reading, STANDARD_GRAVITY, WINDOW,
     hic_search::{RESOLUTION, optimum, optimum_of_magnitude},
 };
 use crate::{Note, Solution, VelocityJump, plain::powers::raised};
@@ -32,11 +32,7 @@ parameters! {
 }
 
 impl MeasureKind for SeverityIndex {
-    const UNIT: &'static str = "s";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
-    const BY_DEFAULT: bool = true;
-    const WITHOUT_IMPACTOR: bool = false;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("s").of_impacts();
 
     fn gravities(&self) -> f64 {
         self.exponent
@@ -105,9 +101,7 @@ parameters! {
 }
 
 impl MeasureKind for Hic {
-    const UNIT: &'static str = "s";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("s");
 
     fn gravities(&self) -> f64 {
         2.5
@@ -164,9 +158,7 @@ macro_rules! within {
         }
 
         impl MeasureKind for $name {
-            const UNIT: &'static str = "s";
-            const APPLIES_TO: Family = Family::Node;
-            const NEEDS: Needs = Needs::Acceleration;
+            const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("s");
 
             fn gravities(&self) -> f64 {
                 2.5

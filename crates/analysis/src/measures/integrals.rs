@@ -1,6 +1,6 @@
 //! Integrals over time, and means.
 
-use super::{Family, MeasureKind, Needs, Reading};
+use super::{MeasureKind, MeasureTraits, Reading};
 use crate::{Note, Solution, VelocityJump};
 
 windowed! {
@@ -10,9 +10,7 @@ windowed! {
 }
 
 impl MeasureKind for Impulse {
-    const UNIT: &'static str = "N s";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("N s").by_default();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let force = solution.element_force(target)?;
@@ -40,9 +38,7 @@ windowed! {
 }
 
 impl MeasureKind for AverageDeceleration {
-    const UNIT: &'static str = "m/s^2";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("m/s^2");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let acceleration = solution.node_acceleration(target)?;

@@ -134,19 +134,8 @@ pub trait Measure: Described {
 
 /// What a measure kind says about itself. All its parameters are optional.
 pub trait MeasureKind: Kind + Default {
-    /// SI unit of the value.
-    const UNIT: &'static str;
-    /// What it is a measure of.
-    const APPLIES_TO: Family;
-    /// What its target must have for it to have a value.
-    const NEEDS: Needs = Needs::Nothing;
-    /// Whether every run with an impactor reports it: for elements that touch one, or for impactors.
-    const BY_DEFAULT: bool = false;
-    /// Whether every run without an impactor reports it: for elements that touch a mass, or for
-    /// free masses that an element touches. What needs an impact to be defined is left out.
-    const WITHOUT_IMPACTOR: bool = Self::BY_DEFAULT;
-    /// Whether every run reports it for the elements that are made of layers.
-    const OF_LAYERS: bool = false;
+    /// What the register says of it.
+    const ABOUT: MeasureTraits;
 
     /// The power of standard gravity over which its values are given: 2.5 for `∫ (|a|/g0)^2.5 dt`. Its
     /// values times this power of it have the dimension that their unit and the power make up.
@@ -173,15 +162,15 @@ pub trait MeasureKind: Kind + Default {
 
 impl<M: MeasureKind> Measure for M {
     fn unit(&self) -> &'static str {
-        M::UNIT
+        M::ABOUT.unit
     }
 
     fn applies_to(&self) -> Family {
-        M::APPLIES_TO
+        M::ABOUT.family
     }
 
     fn needs(&self) -> Needs {
-        M::NEEDS
+        M::ABOUT.needs
     }
 
     fn gravities(&self) -> f64 {
@@ -201,37 +190,64 @@ impl<M: MeasureKind> Measure for M {
     }
 }
 
-/// What the register says of a measure besides how it is made; the last three as in
-/// [`MeasureKind`].
+/// What the register says of a measure besides how it is made.
 #[derive(Debug, Clone, Copy)]
 pub struct MeasureTraits {
     /// SI unit of the value.
     pub unit: &'static str,
     /// What it is a measure of.
     pub family: Family,
+    /// What its target must have for it to have a value.
+    pub needs: Needs,
     /// The measure with all parameters as they are by default.
     pub default: fn() -> Arc<dyn Measure>,
-    /// Whether every run with an impactor reports it.
+    /// Whether every run with an impactor reports it: for elements that touch one, or for impactors.
     pub by_default: bool,
-    /// Whether every run without one does.
+    /// Whether every run without an impactor reports it: for elements that touch a mass, or for
+    /// free masses that an element touches. What needs an impact to be defined is left out.
     pub without_impactor: bool,
     /// Whether every run reports it for the elements that are made of layers.
     pub of_layers: bool,
+}
+
+impl MeasureTraits {
+    const fn of<M: MeasureKind>(unit: &'static str, family: Family, needs: Needs) -> Self {
+        let (by_default, without_impactor, of_layers) = (false, false, false);
+        let default = || Arc::new(M::default()) as Arc<dyn Measure>;
+        Self { unit, family, needs, default, by_default, without_impactor, of_layers }
+    }
+
+    /// Those of a measure of elements in this SI unit, which only those who ask for it are told.
+    pub const fn of_element<M: MeasureKind>(unit: &'static str) -> Self {
+        Self::of::<M>(unit, Family::Element, Needs::Nothing)
+    }
+
+    /// The same of nodes.
+    pub const fn of_node<M: MeasureKind>(unit: &'static str) -> Self {
+        Self::of::<M>(unit, Family::Node, Needs::Nothing)
+    }
+
+    /// The same of nodes with an acceleration.
+    pub const fn of_body<M: MeasureKind>(unit: &'static str) -> Self {
+        Self::of::<M>(unit, Family::Node, Needs::Acceleration)
+    }
+
+    /// Every run reports it.
+    pub(crate) const fn by_default(self) -> Self {
+        Self { by_default: true, without_impactor: true, ..self }
+    }
+
+    /// Every run with an impactor reports it.
+    pub(crate) const fn of_impacts(self) -> Self {
+        Self { by_default: true, ..self }
+    }
 }
 
 /// A measure in the register.
 pub type MeasureEntry = Registered<Arc<dyn Measure>, MeasureTraits>;
 
 const fn measure<M: MeasureKind>() -> MeasureEntry {
-    let about = MeasureTraits {
-        unit: M::UNIT,
-        family: M::APPLIES_TO,
-        default: || Arc::new(M::default()),
-        by_default: M::BY_DEFAULT,
-        without_impactor: M::WITHOUT_IMPACTOR,
-        of_layers: M::OF_LAYERS,
-    };
-    Registered::new::<M>(|values| Ok(Arc::new(M::from_values(values)?)), about)
+    Registered::new::<M>(|values| Ok(Arc::new(M::from_values(values)?)), M::ABOUT)
 }
 
 /// Every measure kind. **A new kind is registered here.**

@@ -1,6 +1,6 @@
 //! The largest values of forces, deformations and motions, and those at the end of a window.
 
-use super::{Family, MeasureKind, Needs, Reading, reading::peaks_below_zero};
+use super::{MeasureKind, MeasureTraits, Reading, reading::peaks_below_zero};
 use crate::{Note, Solution, VelocityJump};
 
 windowed! {
@@ -17,9 +17,7 @@ windowed! {
 }
 
 impl MeasureKind for PeakForce {
-    const UNIT: &'static str = "N";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("N").by_default();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let force = solution.element_force(target)?;
@@ -40,9 +38,7 @@ windowed! {
 }
 
 impl MeasureKind for PeakDeformation {
-    const UNIT: &'static str = "m";
-    const APPLIES_TO: Family = Family::Element;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("m").by_default();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.element_span(target, self.window)?;
@@ -66,8 +62,7 @@ windowed! {
 }
 
 impl MeasureKind for PeakRate {
-    const UNIT: &'static str = "m/s";
-    const APPLIES_TO: Family = Family::Element;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("m/s");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.element_span(target, self.window)?;
@@ -75,12 +70,8 @@ impl MeasureKind for PeakRate {
         let reading = Reading::peak(&solution.rate_of(connection), &span);
         // At a jump the rates on both sides count, also that before the span.
         let jumps = VelocityJump::within(solution.element_jumps(target), (span.from, span.from));
-        let before =
-            jumps.first().map_or(0.0, |jump| solution.approach_before(connection, jump.time).abs());
-        if reading.value.is_none_or(|value| value >= before) {
-            return Ok(reading);
-        }
-        Ok(Reading { value: Some(before), ..reading }.of_size(before).at(span.from))
+        let before = |jump: &VelocityJump| solution.approach_before(connection, jump.time).abs();
+        Ok(reading.with_value_before(jumps.first().map(before), &span))
     }
 }
 
@@ -92,10 +83,7 @@ windowed! {
 }
 
 impl MeasureKind for PeakAcceleration {
-    const UNIT: &'static str = "m/s^2";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
-    const BY_DEFAULT: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("m/s^2").by_default();
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let acceleration = solution.node_acceleration(target)?;
@@ -111,8 +99,7 @@ windowed! {
 }
 
 impl MeasureKind for PeakDisplacement {
-    const UNIT: &'static str = "m";
-    const APPLIES_TO: Family = Family::Node;
+    const ABOUT: MeasureTraits = MeasureTraits::of_node::<Self>("m");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.node_span(target, self.window)?;
@@ -128,8 +115,7 @@ windowed! {
 }
 
 impl MeasureKind for EndDeformation {
-    const UNIT: &'static str = "m";
-    const APPLIES_TO: Family = Family::Element;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("m");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.element_span(target, self.window)?;
@@ -145,8 +131,7 @@ windowed! {
 }
 
 impl MeasureKind for EndForce {
-    const UNIT: &'static str = "N";
-    const APPLIES_TO: Family = Family::Element;
+    const ABOUT: MeasureTraits = MeasureTraits::of_element::<Self>("N");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.element_span(target, self.window)?;
@@ -161,23 +146,17 @@ windowed! {
 }
 
 impl MeasureKind for PeakVelocity {
-    const UNIT: &'static str = "m/s";
-    const APPLIES_TO: Family = Family::Node;
+    const ABOUT: MeasureTraits = MeasureTraits::of_node::<Self>("m/s");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let node = &solution.assembly().nodes[target];
         let velocity = solution.signal(node.velocity.ok_or(Note::NoVelocity)?);
         let span = solution.node_span(target, self.window)?;
         let reading = Reading::peak(velocity, &span);
-        let before =
-            match VelocityJump::within(&solution.node_jumps(target), (span.from, span.from)) {
-                [] => 0.0,
-                _ => velocity.left_value(span.from).abs(),
-            };
-        if reading.value.is_none_or(|value| value >= before) {
-            return Ok(reading);
-        }
-        Ok(Reading { value: Some(before), ..reading }.of_size(before).at(span.from))
+        let jumps = solution.node_jumps(target);
+        let first = VelocityJump::within(&jumps, (span.from, span.from)).first();
+        let before = first.map(|_| velocity.left_value(span.from).abs());
+        Ok(reading.with_value_before(before, &span))
     }
 }
 
@@ -187,8 +166,7 @@ windowed! {
 }
 
 impl MeasureKind for EndPosition {
-    const UNIT: &'static str = "m";
-    const APPLIES_TO: Family = Family::Node;
+    const ABOUT: MeasureTraits = MeasureTraits::of_node::<Self>("m");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let span = solution.node_span(target, self.window)?;
@@ -205,8 +183,7 @@ windowed! {
 }
 
 impl MeasureKind for EndVelocity {
-    const UNIT: &'static str = "m/s";
-    const APPLIES_TO: Family = Family::Node;
+    const ABOUT: MeasureTraits = MeasureTraits::of_node::<Self>("m/s");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let node = &solution.assembly().nodes[target];

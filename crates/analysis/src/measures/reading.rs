@@ -95,6 +95,14 @@ impl Reading {
         if is_so { self.noting(note) } else { self }
     }
 
+    /// The same reading of a largest value, where that just before the span counts as well.
+    pub(super) fn with_value_before(self, before: Option<f64>, span: &Span) -> Self {
+        match before.zip(self.value).filter(|(before, value)| before > value) {
+            Some((before, _)) => Self { value: Some(before), ..self }.of_size(before).at(span.from),
+            None => self,
+        }
+    }
+
     /// No value, where speeds jump within the span so that what is measured is infinite there: the force
     /// of an element in which masses meet, the acceleration of a node. `None` where none does.
     pub fn infinite(span: &Span, jumps: &[VelocityJump]) -> Option<Self> {

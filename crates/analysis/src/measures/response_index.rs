@@ -12,7 +12,7 @@ use dashpot_network::{
 use dashpot_rheology::Tree;
 
 use super::{
-    Family, Measure, MeasureKind, Needs, Reading, STANDARD_GRAVITY, WHOLE_RUN,
+    Measure, MeasureKind, MeasureTraits, Reading, STANDARD_GRAVITY, WHOLE_RUN,
     driven::{Oscillator, largest_deformation},
 };
 use crate::{Note, Solution};
@@ -47,9 +47,7 @@ parameters! {
 }
 
 impl MeasureKind for Dri {
-    const UNIT: &'static str = "1";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("1");
 
     fn gravities(&self) -> f64 {
         1.0
@@ -123,9 +121,7 @@ impl Edi {
 }
 
 impl MeasureKind for Edi {
-    const UNIT: &'static str = "m";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("m");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let own = self.oscillator().ok_or(Note::NotLinear)?;

@@ -2,7 +2,7 @@
 
 use dashpot_network::{SegmentOutputs, SegmentPlace};
 
-use super::{Family, MeasureKind, Needs, Reading, reading::peaks_below_zero};
+use super::{MeasureKind, MeasureTraits, Needs, Reading, reading::peaks_below_zero};
 use crate::{Note, Solution, impact::interval::Span};
 
 windowed! {
@@ -17,10 +17,11 @@ windowed! {
 }
 
 impl MeasureKind for PeakStress {
-    const UNIT: &'static str = "Pa";
-    const APPLIES_TO: Family = Family::Element;
-    const NEEDS: Needs = Needs::Area;
-    const OF_LAYERS: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits {
+        needs: Needs::Area,
+        of_layers: true,
+        ..MeasureTraits::of_element::<Self>("Pa")
+    };
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connection = &solution.assembly().connections[target];
@@ -49,10 +50,11 @@ windowed! {
 }
 
 impl MeasureKind for PeakStrain {
-    const UNIT: &'static str = "1";
-    const APPLIES_TO: Family = Family::Element;
-    const NEEDS: Needs = Needs::Thickness;
-    const OF_LAYERS: bool = true;
+    const ABOUT: MeasureTraits = MeasureTraits {
+        needs: Needs::Thickness,
+        of_layers: true,
+        ..MeasureTraits::of_element::<Self>("1")
+    };
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connection = &solution.assembly().connections[target];

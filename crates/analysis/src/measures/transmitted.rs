@@ -7,7 +7,7 @@ use dashpot_network::{
     Assembly, ConnectionOutputs, NodeId, NodeOutputs, parameters, parameters::WindowWish,
 };
 
-use super::{Family, MeasureKind, Needs, Reading, WINDOW, reading::peaks_below_zero};
+use super::{MeasureKind, MeasureTraits, Reading, WINDOW, reading::peaks_below_zero};
 use crate::{Note, Solution};
 
 windowed! {
@@ -24,9 +24,8 @@ windowed! {
 }
 
 impl MeasureKind for TransmittedForce {
-    const UNIT: &'static str = "N";
-    const APPLIES_TO: Family = Family::Element;
-    const OF_LAYERS: bool = true;
+    const ABOUT: MeasureTraits =
+        MeasureTraits { of_layers: true, ..MeasureTraits::of_element::<Self>("N") };
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let connections = &solution.assembly().connections;
@@ -89,9 +88,7 @@ parameters! {
 }
 
 impl MeasureKind for Transmissibility {
-    const UNIT: &'static str = "1";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("1");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let nodes = &solution.assembly().nodes;

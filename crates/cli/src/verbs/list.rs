@@ -219,7 +219,7 @@ fn limits(standard: &Standard) -> Entry {
     let bound = |&(most, of_mean): &(f64, bool)| {
         let limit = Limit::new("", Bound::Max(most));
         let unit = MEASURES.iter().find(|own| own.word == standard.kinds[0]);
-        let unit = unit.map_or("1", |own| (own.about.default)().unit());
+        let unit = unit.map_or("1", |own| own.about.unit);
         let of_mean = if of_mean { " in the mean of several tests" } else { "" };
         format!("{kinds} at most {}{of_mean}", level(&limit, standard.kinds[0], unit))
     };

@@ -145,7 +145,7 @@ fn level(reading: &Reading<'_>, kind: &MeasureEntry, item: &Item) -> Option<f64>
 }
 
 fn dimension(kind: &MeasureEntry) -> Dimension {
-    let unit = (kind.about.default)().unit();
+    let unit = kind.about.unit;
     parse_dimension(unit).unwrap_or(Dimension::NUMBER)
 }
 

@@ -9,7 +9,7 @@ use dashpot_numerics::{
     roots::{TO_THE_LAST_BIT, bisect},
 };
 
-use super::{Family, Measure, MeasureKind, Needs, Reading, WINDOW};
+use super::{Measure, MeasureKind, MeasureTraits, Reading, WINDOW};
 use crate::{Note, Solution};
 
 choices! {
@@ -171,9 +171,7 @@ parameters! {
 }
 
 impl MeasureKind for Clip {
-    const UNIT: &'static str = "m/s^2";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("m/s^2");
 
     fn read(&self, solution: &Solution<'_>, target: usize) -> Result<Reading, Note> {
         let acceleration = solution.node_acceleration(target)?;
@@ -209,9 +207,7 @@ impl Clip3ms {
 }
 
 impl MeasureKind for Clip3ms {
-    const UNIT: &'static str = "m/s^2";
-    const APPLIES_TO: Family = Family::Node;
-    const NEEDS: Needs = Needs::Acceleration;
+    const ABOUT: MeasureTraits = MeasureTraits::of_body::<Self>("m/s^2");
 
     fn general(&self) -> Option<Arc<dyn Measure>> {
         Some(Arc::new(self.clip()))

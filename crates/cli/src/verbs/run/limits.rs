@@ -188,7 +188,7 @@ pub(crate) fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
         Some(own) => level(limit, own.kind, own.unit),
         None => limit.measure().map_or_else(
             || numbers::significant(limit.bound.level(), MOST_DIGITS),
-            |own| level(limit, own.word, (own.about.default)().unit()),
+            |own| level(limit, own.word, own.about.unit),
         ),
     };
     let word = match limit.bound {
