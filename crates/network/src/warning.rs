@@ -45,33 +45,32 @@ pub struct Front {
 }
 
 impl NetworkWarning {
+    fn about(&self) -> (&'static str, Vec<&str>) {
+        match self {
+            Self::RigidlyLinked { element } => ("rigidly-linked", vec![element]),
+            Self::Reversed { element } => ("reversed", vec![element]),
+            Self::IdleRestitution { element, node, .. } => {
+                let names = [element].into_iter().chain(node);
+                ("idle-restitution", names.map(String::as_str).collect())
+            }
+            Self::SharedContacts { elements: [one, other] } => {
+                ("shared-contacts", vec![one, other])
+            }
+            Self::DampedFront(own) => ("damped-front", vec![&own.node, &own.element]),
+            Self::NonlinearFront(own) => ("nonlinear-front", vec![&own.node, &own.element]),
+            Self::SteepFront { front, .. } => ("steep-front", vec![&front.node, &front.element]),
+            Self::LoadJumps { load, element } => ("load-jumps", vec![load, element]),
+        }
+    }
+
     /// What kind of warning it is, in one word that stays the same.
     pub fn code(&self) -> &'static str {
-        match self {
-            Self::RigidlyLinked { .. } => "rigidly-linked",
-            Self::Reversed { .. } => "reversed",
-            Self::IdleRestitution { .. } => "idle-restitution",
-            Self::SharedContacts { .. } => "shared-contacts",
-            Self::DampedFront(_) => "damped-front",
-            Self::NonlinearFront(_) => "nonlinear-front",
-            Self::SteepFront { .. } => "steep-front",
-            Self::LoadJumps { .. } => "load-jumps",
-        }
+        self.about().0
     }
 
     /// Names of the elements, nodes and loads that it is about, the first one first.
     pub fn names(&self) -> Vec<&str> {
-        match self {
-            Self::RigidlyLinked { element } | Self::Reversed { element } => vec![element],
-            Self::IdleRestitution { element, node, .. } => {
-                [element].into_iter().chain(node).map(String::as_str).collect()
-            }
-            Self::SharedContacts { elements: [one, other] } => vec![one, other],
-            Self::DampedFront(own)
-            | Self::NonlinearFront(own)
-            | Self::SteepFront { front: own, .. } => vec![&own.node, &own.element],
-            Self::LoadJumps { load, element } => vec![load, element],
-        }
+        self.about().1
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{CostPoint, Deviation, MeasureDeviation, Subject, Timing, Underestimate};
-use crate::{Contact, MeasureReport, RunReport};
+use crate::{Contact, MeasureReport, RunReport, report::over};
 
 /// Differences below so many roundings are none.
 const ROUNDINGS: f64 = 64.0;
@@ -14,8 +14,7 @@ pub(super) fn apart(reference: &MeasureReport, run: &MeasureReport) -> Option<f6
     match (reference.value, run.value) {
         (None, None) => None,
         (Some(reference_value), Some(value)) => {
-            let size = size(reference, run);
-            Some(if size > 0.0 { (value - reference_value).abs() / size } else { 0.0 })
+            Some(over((value - reference_value).abs(), size(reference, run)))
         }
         _ => Some(f64::INFINITY),
     }
@@ -38,8 +37,7 @@ pub(super) fn known(
     let of = |measure_report: &MeasureReport| {
         let rounding = ROUNDINGS * f64::EPSILON;
         let bound = measure_report.error.filter(|error| is_bounded && error.is_finite());
-        let bound = bound
-            .map(|error| if measure_report.size > 0.0 { error / measure_report.size } else { 0.0 });
+        let bound = bound.map(|error| over(error, measure_report.size));
         let agreement = || {
             let other = others.get(measure_report.key.as_str())?;
             Some(apart(measure_report, other)?.max(rounding))
@@ -64,8 +62,7 @@ pub(super) fn measures(
             return MeasureDeviation { deviation: None, bar: None, warned: false };
         };
         let deviation = apart(own, other).map(|value| Deviation { value, known_within });
-        let size = size(own, other);
-        let bar = other.error.map(|error| if size > 0.0 { error / size } else { 0.0 });
+        let bar = other.error.map(|error| over(error, size(own, other)));
         let warned = other.excess > 1.0 || other.error.is_some_and(f64::is_infinite);
         MeasureDeviation { deviation, bar, warned }
     };

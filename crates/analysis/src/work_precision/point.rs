@@ -93,14 +93,10 @@ impl Bench<'_> {
         let solutions = 1 + solved.solver.solves_for_error;
         let each = watch.last().div_ceil(solutions).max(1);
         let left = most_work.saturating_sub(watch.work()) / OF_THE_REST;
-        let repeats = self.repeats(&solved).min(left / each).max(1);
+        let wanted = self.ladder.repeats.unwrap_or_else(|| repeats(&solved.solver.statistics));
+        let repeats = wanted.min(left / each).max(1);
         watch.charge(repeats.saturating_mul(each));
         self.judged(method.as_ref(), rtol, &solved, repeats)
-    }
-
-    /// How often a solution is repeated for its time.
-    fn repeats(&self, solved: &RunReport) -> usize {
-        self.ladder.repeats.unwrap_or_else(|| repeats(&solved.solver.statistics))
     }
 
     fn judged(

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     MeasureReport, RunError, RunReport, SolveSettings, SolverReport, measures::selection::select,
-    solve_assembly,
+    report::over, solve_assembly,
 };
 
 /// Solutions that a truth takes.
@@ -172,9 +172,7 @@ impl<'a> Judge<'a> {
         };
         let pairs = self.report.measures.iter().zip(&witness.measures).enumerate();
         let measures = pairs.filter_map(|(at, (own, other))| {
-            let size = size(own, other);
-            let bars = own.error? + other.error?;
-            let bar = if size > 0.0 { bars / size } else { 0.0 };
+            let bar = over(own.error? + other.error?, size(own, other));
             let apart = apart(own, other).filter(|apart| *apart > bar)?;
             Some(underestimate(Subject::Measure(at), apart, Some(bar)))
         });
@@ -201,7 +199,7 @@ impl<'a> Judge<'a> {
 
     /// A time in parts of the run.
     fn relative(&self, time: f64) -> f64 {
-        if self.duration > 0.0 { time / self.duration } else { 0.0 }
+        over(time, self.duration)
     }
 }
 
@@ -221,7 +219,7 @@ fn reference_solution(
             match solved.map_err(|error| watch.told(method, error)) {
                 Ok(report) => return Ok((report, family)),
                 Err(error) if is_final(&error) => return Err(error),
-                Err(error) if declines(&error) || is_too_much(&error) => {
+                Err(error) if declines(&error) || matches!(error, RunError::TooMuchWork { .. }) => {
                     last = Some(error);
                     break;
                 }
@@ -249,9 +247,4 @@ fn is_final(error: &RunError) -> bool {
         }
         _ => true,
     }
-}
-
-/// Whether less exact solutions by another method may still be few enough.
-fn is_too_much(error: &RunError) -> bool {
-    matches!(error, RunError::TooMuchWork { .. })
 }

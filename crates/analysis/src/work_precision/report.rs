@@ -197,17 +197,13 @@ pub struct Underestimate {
 impl CostPoint {
     /// What the error of none of the measures at these places exceeds; 0 if none of them has a value.
     pub fn worst(&self, places: &[usize]) -> f64 {
-        let of = |&place: &usize| self.measures.get(place)?.deviation.map(Deviation::at_most);
-        places.iter().filter_map(of).fold(0.0, f64::max)
+        self.largest(places).map_or(0.0, Deviation::at_most)
     }
 
-    /// The place among these of the measure with the largest error; `None` if none has a value.
-    pub fn worst_place(&self, places: &[usize]) -> Option<usize> {
-        let of = |&place: &usize| {
-            Some((place, self.measures.get(place)?.deviation.map(Deviation::at_most)?))
-        };
-        let found = places.iter().filter_map(of);
-        found.max_by(|one, other| one.1.total_cmp(&other.1)).map(|own| own.0)
+    /// The largest error of the measures at these places; `None` if none has a value.
+    pub fn largest(&self, places: &[usize]) -> Option<Deviation> {
+        let all = places.iter().filter_map(|&place| self.measures.get(place)?.deviation);
+        all.max_by(|one, other| one.at_most().total_cmp(&other.at_most()))
     }
 }
 

@@ -1,5 +1,7 @@
 //! The state of a run at dense times, and how far another run is from it.
 
+use std::borrow::Cow;
+
 use dashpot_dae::{LinearForm, System, Trajectory, UnknownKind};
 use dashpot_network::Assembly;
 
@@ -32,14 +34,11 @@ const WIDTH: f64 = 1e-12;
 /// The quantities that are compared.
 pub(super) struct Probe<'a> {
     assembly: &'a Assembly,
-    quantities: Quantities,
-}
-
-enum Quantities {
-    /// The differential unknowns, by number, of a system that has an output for each at its end.
-    Unknowns(Vec<usize>, Box<System>),
-    /// Outputs, where the unknowns are not the same all the time.
-    Outputs(Vec<usize>),
+    /// The system with an output for each of them.
+    system: Cow<'a, System>,
+    outputs: Vec<usize>,
+    /// The differential unknowns that they are, by number; none where those are not the same all the time.
+    unknowns: Vec<usize>,
 }
 
 /// Values of all quantities at all times.
@@ -56,28 +55,23 @@ pub(super) struct States {
 impl<'a> Probe<'a> {
     /// The differential unknowns, or where those change, the outputs of whatever has a measure.
     pub(super) fn new(assembly: &'a Assembly, selected: &[Selected]) -> Self {
-        let quantities = if assembly.switching.is_some() {
-            Quantities::Outputs(outputs(assembly, selected))
-        } else {
-            let unknowns = assembly.system.unknowns.iter().enumerate();
-            let differential = unknowns.filter(|(_, own)| own.kind == UnknownKind::Differential);
-            let numbers: Vec<usize> = differential.map(|(at, _)| at).collect();
-            let system = with_outputs(&assembly.system, &numbers);
-            Quantities::Unknowns(numbers, Box::new(system))
-        };
-        Self { assembly, quantities }
-    }
-
-    fn len(&self) -> usize {
-        match &self.quantities {
-            Quantities::Unknowns(numbers, _) | Quantities::Outputs(numbers) => numbers.len(),
+        if assembly.switching.is_some() {
+            let (outputs, unknowns) = (outputs(assembly, selected), Vec::new());
+            return Self { assembly, system: Cow::Borrowed(&assembly.system), outputs, unknowns };
         }
+        let unknowns = assembly.system.unknowns.iter().enumerate();
+        let differential = unknowns.filter(|(_, own)| own.kind == UnknownKind::Differential);
+        let unknowns: Vec<usize> = differential.map(|(at, _)| at).collect();
+        let first = assembly.system.outputs.len();
+        let outputs = (first..first + unknowns.len()).collect();
+        let system = Cow::Owned(with_outputs(&assembly.system, &unknowns));
+        Self { assembly, system, outputs, unknowns }
     }
 
     /// The times at which runs until `end` \[s\] are compared; one of them lies between any two events,
     /// which happen at these times \[s\].
     fn times(&self, end: f64, events: &[f64]) -> Vec<f64> {
-        let room = MOST_NUMBERS / self.len().max(1);
+        let room = MOST_NUMBERS / self.outputs.len().max(1);
         let mut times = regular_times(end, REGULAR.min(room).max(FEWEST));
         if room > 2 * REGULAR {
             let scale = self.assembly.system.time_scale;
@@ -115,42 +109,26 @@ impl<'a> Probe<'a> {
 
     /// One row for each quantity, and bounds of their errors, where the method states them.
     fn values(&self, trajectory: &Trajectory, times: &[f64]) -> (Vec<Vec<f64>>, Vec<Option<f64>>) {
-        match &self.quantities {
-            Quantities::Unknowns(numbers, _) if !is_exact(trajectory) => {
-                let system = &self.assembly.system;
-                let scaled: Vec<f64> = times.iter().map(|time| time / system.time_scale).collect();
-                let rows = trajectory.dense.sample(system, &scaled);
-                let size = system.len();
-                let column = |&at: &usize| {
-                    let scale = system.unknowns[at].scale;
-                    rows.iter().skip(at).step_by(size).map(|row| row * scale).collect()
-                };
-                (numbers.iter().map(column).collect(), vec![None; numbers.len()])
-            }
-            Quantities::Unknowns(numbers, system) => {
-                let first = self.assembly.system.outputs.len();
-                let signals = (first..first + numbers.len()).map(|at| {
-                    let signal = trajectory.signal(system, at);
-                    (signal.sample(times), signal.error)
-                });
-                signals.unzip()
-            }
-            Quantities::Outputs(numbers) => {
-                let signals = numbers.iter().map(|&at| {
-                    let signal = trajectory.signal(&self.assembly.system, at);
-                    (signal.sample(times), signal.error)
-                });
-                signals.unzip()
-            }
+        if !self.unknowns.is_empty() && !is_exact(trajectory) {
+            let system = &self.assembly.system;
+            let scaled: Vec<f64> = times.iter().map(|time| time / system.time_scale).collect();
+            let rows = trajectory.dense.sample(system, &scaled);
+            let column = |&at: &usize| {
+                let scale = system.unknowns[at].scale;
+                rows.iter().skip(at).step_by(system.len()).map(|row| row * scale).collect()
+            };
+            return (self.unknowns.iter().map(column).collect(), vec![None; self.unknowns.len()]);
         }
+        let signals = self.outputs.iter().map(|&at| {
+            let signal = trajectory.signal(&self.system, at);
+            (signal.sample(times), signal.error)
+        });
+        signals.unzip()
     }
 
     /// What each quantity is compared to.
     fn sizes(&self, largest: &[f64]) -> Vec<f64> {
-        let unit = |at: usize| match &self.quantities {
-            Quantities::Unknowns(numbers, system) => system.unknowns[numbers[at]].unit,
-            Quantities::Outputs(numbers) => self.assembly.system.outputs.at(numbers[at]).unit,
-        };
+        let unit = |at: usize| self.system.outputs.at(self.outputs[at]).unit;
         let of_unit = |wanted: &str| {
             let same = largest.iter().enumerate().filter(|(at, _)| unit(*at) == wanted);
             same.fold(0.0_f64, |most, own| most.max(*own.1))

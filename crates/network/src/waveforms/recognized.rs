@@ -205,34 +205,28 @@ fn haversine(waveform: &Waveform) -> Option<Haversine> {
 
 /// Whether both have the same pieces to rounding; where the first one begins does not matter.
 fn is_same(one: &Waveform, other: &Waveform) -> bool {
-    let (first, second) = (one.pieces(), other.pieces());
     // Rounding is that of the largest of each kind of number.
-    let numbers = |piece: &Piece| {
-        [
-            [piece.value, piece.sine, piece.cosine].map(f64::abs).into_iter().fold(0.0, f64::max),
-            piece.slope.abs(),
-            piece.curvature.abs(),
-            piece.jerk.abs(),
-            piece.omega.abs(),
-            piece.sweep.abs(),
-        ]
+    const KINDS: [usize; 8] = [0, 0, 0, 1, 2, 3, 4, 5];
+    const FREQUENCY: usize = 4;
+    let (first, second) = (one.pieces(), other.pieces());
+    let numbers = |own: &Piece| {
+        let Piece { value, sine, cosine, slope, curvature, jerk, omega, sweep, .. } = *own;
+        [value, sine, cosine, slope, curvature, jerk, omega, sweep]
     };
     let mut sizes = [0.0_f64; 6];
     for own in first.iter().chain(second) {
-        sizes.iter_mut().zip(numbers(own)).for_each(|(size, own)| *size = size.max(own));
+        for (kind, number) in KINDS.into_iter().zip(numbers(own)) {
+            sizes[kind] = sizes[kind].max(number.abs());
+        }
     }
     let close = |a: f64, b: f64, size: f64| (a - b).abs() <= SAME * size;
     let pair = |(at, (one, other)): (usize, (&Piece, &Piece))| {
-        (at == 0 && !one.is_wave()
-            || close(one.start, other.start, one.start.abs() + other.start.abs()))
-            && close(one.value, other.value, sizes[0])
-            && close(one.sine, other.sine, sizes[0])
-            && close(one.cosine, other.cosine, sizes[0])
-            && close(one.slope, other.slope, sizes[1])
-            && close(one.curvature, other.curvature, sizes[2])
-            && close(one.jerk, other.jerk, sizes[3])
-            && (!one.is_wave() || close(one.omega, other.omega, sizes[4]))
-            && (!one.is_wave() || close(one.sweep, other.sweep, sizes[5]))
+        let (size, is_wave) = (one.start.abs() + other.start.abs(), one.is_wave());
+        let pairs = numbers(one).into_iter().zip(numbers(other));
+        (at == 0 && !is_wave || close(one.start, other.start, size))
+            && KINDS.into_iter().zip(pairs).all(|(kind, (one, other))| {
+                kind >= FREQUENCY && !is_wave || close(one, other, sizes[kind])
+            })
     };
     first.len() == second.len() && first.iter().zip(second).enumerate().all(pair)
 }

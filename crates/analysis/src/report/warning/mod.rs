@@ -196,36 +196,54 @@ pub struct Missed {
 }
 
 impl Warning {
+    /// What kind of warning it is, in one word that stays the same, and the names of the elements, nodes and measures that
+    /// it is about.
+    fn about(&self) -> (&'static str, Vec<&str>) {
+        match self {
+            Self::FollowedInPart { .. } => ("followed-in-part", Vec::new()),
+            Self::Pulls { element, since: Some(_) } => ("pulls", vec![element]),
+            Self::Pulls { element, since: None } => ("pulls-from-the-start", vec![element]),
+            Self::PressedThrough { through, .. } => ("pressed-through", vec![&through.name]),
+            Self::BeyondLaw(own) => {
+                let code = match own {
+                    Beyond { at_equator: true, .. } => "pressed-beyond-radius",
+                    Beyond { is_pressed: true, .. } => "pressed-beyond-points",
+                    _ => "stretched-beyond-points",
+                };
+                (code, vec![&own.name])
+            }
+            Self::CrushedPart { element, .. } => ("crushed-part", vec![element]),
+            Self::EnergyNotClosed { .. } => ("energy-not-closed", Vec::new()),
+            Self::LoosePreload { element, .. } => ("loose-preload", vec![element]),
+            Self::IdleSlider(own) => ("idle-slider", all(&own.slider.sliders)),
+            Self::StopHolds { condition } => ("stop-holds", vec![condition]),
+            Self::StillFalling { node, .. } => ("still-falling", vec![node]),
+            Self::StillInContact { element, .. } => ("still-in-contact", vec![element]),
+            Self::ReleaseMissed { element, .. } => ("release-missed", vec![element]),
+            Self::OpenEnd { measures, .. } => ("open-end", all(measures)),
+            Self::HarderOutside(own) => ("harder-outside", all(own.iter().map(|own| &own.measure))),
+            Self::NeverComesBack { names, .. } => ("never-comes-back", all(names)),
+            Self::ErrorsUnknown { .. } => ("errors-unknown", Vec::new()),
+            Self::Undecided(measures) => ("undecided", all(measures)),
+            Self::Undetermined(measures) => ("undetermined", all(measures)),
+            Self::NotReached { missed, .. } => {
+                ("accuracy-not-reached", all(missed.iter().map(|own| &own.measure)))
+            }
+            Self::HeldTable(own) => ("held-table", vec![&own.name]),
+            Self::Network(own) => (own.code(), own.names()),
+            Self::Unasked => ("unasked", Vec::new()),
+            Self::Segments { measures, .. } => ("segments", all(measures.iter().map(|own| &own.0))),
+        }
+    }
+
     /// What kind of warning it is, in one word that stays the same.
     pub fn code(&self) -> &'static str {
-        match self {
-            Self::FollowedInPart { .. } => "followed-in-part",
-            Self::Pulls { since: Some(_), .. } => "pulls",
-            Self::Pulls { since: None, .. } => "pulls-from-the-start",
-            Self::PressedThrough { .. } => "pressed-through",
-            Self::BeyondLaw(Beyond { at_equator: true, .. }) => "pressed-beyond-radius",
-            Self::BeyondLaw(Beyond { is_pressed: true, .. }) => "pressed-beyond-points",
-            Self::BeyondLaw(_) => "stretched-beyond-points",
-            Self::CrushedPart { .. } => "crushed-part",
-            Self::EnergyNotClosed { .. } => "energy-not-closed",
-            Self::LoosePreload { .. } => "loose-preload",
-            Self::IdleSlider(_) => "idle-slider",
-            Self::StopHolds { .. } => "stop-holds",
-            Self::StillFalling { .. } => "still-falling",
-            Self::StillInContact { .. } => "still-in-contact",
-            Self::ReleaseMissed { .. } => "release-missed",
-            Self::OpenEnd { .. } => "open-end",
-            Self::HarderOutside(_) => "harder-outside",
-            Self::NeverComesBack { .. } => "never-comes-back",
-            Self::ErrorsUnknown { .. } => "errors-unknown",
-            Self::Undecided(_) => "undecided",
-            Self::Undetermined(_) => "undetermined",
-            Self::NotReached { .. } => "accuracy-not-reached",
-            Self::HeldTable(_) => "held-table",
-            Self::Network(own) => own.code(),
-            Self::Unasked => "unasked",
-            Self::Segments { .. } => "segments",
-        }
+        self.about().0
+    }
+
+    /// Names of the elements, nodes and measures that it is about.
+    pub fn names(&self) -> Vec<&str> {
+        self.about().1
     }
 
     /// Whether it says that something is pressed further than is known of it: beyond the points of its law, or
@@ -252,43 +270,12 @@ impl Warning {
         }
     }
 
-    /// Names of the elements, nodes and measures that it is about.
-    pub fn names(&self) -> Vec<&str> {
-        match self {
-            Self::FollowedInPart { .. }
-            | Self::EnergyNotClosed { .. }
-            | Self::ErrorsUnknown { .. }
-            | Self::Unasked => Vec::new(),
-            Self::Pulls { element, .. }
-            | Self::CrushedPart { element, .. }
-            | Self::StillInContact { element, .. }
-            | Self::LoosePreload { element, .. }
-            | Self::ReleaseMissed { element, .. } => vec![element],
-            Self::PressedThrough { through, .. } => vec![&through.name],
-            Self::BeyondLaw(own) => vec![&own.name],
-            Self::IdleSlider(own) => all(&own.slider.sliders),
-            Self::StopHolds { condition } => vec![condition],
-            Self::StillFalling { node, .. } => vec![node],
-            Self::OpenEnd { measures, .. }
-            | Self::Undecided(measures)
-            | Self::Undetermined(measures) => all(measures),
-            Self::HarderOutside(own) => own.iter().map(|own| own.measure.as_str()).collect(),
-            Self::NeverComesBack { names, .. } => all(names),
-            Self::NotReached { missed, .. } => {
-                missed.iter().map(|own| own.measure.as_str()).collect()
-            }
-            Self::HeldTable(own) => vec![&own.name],
-            Self::Network(own) => own.names(),
-            Self::Segments { measures, .. } => measures.iter().map(|own| own.0.as_str()).collect(),
-        }
-    }
-
     /// Whether it differs from another one in numbers alone.
     pub fn is_like(&self, other: &Self) -> bool {
-        self.code() == other.code() && self.names() == other.names()
+        self.about() == other.about()
     }
 }
 
-fn all(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
+fn all<'n>(names: impl IntoIterator<Item = &'n String>) -> Vec<&'n str> {
+    names.into_iter().map(String::as_str).collect()
 }

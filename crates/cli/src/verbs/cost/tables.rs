@@ -22,8 +22,6 @@ const AT_MOST: &str = "≤";
 /// Errors and times of all solutions.
 pub(super) fn errors(report: &CostReport) -> Table {
     let row = |cost_point: &CostPoint| {
-        let worst = cost_point.worst_place(&report.asked);
-        let worst = worst.and_then(|at| cost_point.measures.get(at)?.deviation);
         vec![
             cost_point.method.to_owned(),
             tolerance(cost_point.rtol),
@@ -31,7 +29,7 @@ pub(super) fn errors(report: &CostReport) -> Table {
             spread(cost_point.time),
             error(cost_point.state),
             events(&cost_point.events),
-            error(worst),
+            error(cost_point.largest(&report.asked)),
         ]
     };
     let measures = match report.asked.as_slice() {
