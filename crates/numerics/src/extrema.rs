@@ -15,6 +15,37 @@ pub fn maximum(low: f64, high: f64, steps: usize, mut f: impl FnMut(f64) -> f64)
     }
 }
 
+/// The local maxima of `f` between rising positive `places`, each refined by [`maximum`] between its neighbours in the
+/// logarithm of the place, and the values at the first and at the last place.
+pub fn maxima(
+    places: &[f64],
+    steps: usize,
+    mut f: impl FnMut(f64) -> f64,
+) -> (Vec<(f64, f64)>, [f64; 2]) {
+    let values: Vec<f64> = places.iter().map(|&place| f(place)).collect();
+    let tops = (1..places.len().saturating_sub(1))
+        .filter(|&at| values[at] > values[at - 1] && values[at] >= values[at + 1]);
+    let mut refined = |at: usize| {
+        let [low, high] = [at - 1, at + 1].map(|beside| places[beside].ln());
+        let (place, value) = maximum(low, high, steps, |place| f(place.exp()));
+        if value > values[at] { (place.exp(), value) } else { (places[at], values[at]) }
+    };
+    let ends = [values.first(), values.last()].map(|own| own.copied().unwrap_or(f64::NAN));
+    (tops.map(&mut refined).collect(), ends)
+}
+
+/// The largest value of `f` over all positive numbers and its place, by [`maxima`] between `places` of which the first
+/// and the last stand for the limits: 0 or infinity where a limit is the largest to some 10⁻⁶, and 0 where `f` is the
+/// same everywhere.
+pub fn largest_on_half_line(places: &[f64], steps: usize, f: impl FnMut(f64) -> f64) -> (f64, f64) {
+    /// On a plateau rounding would decide, so a maximum has to stand out.
+    const FLAT: f64 = 1.0 + 1e-6;
+    let (maxima, [first, last]) = maxima(places, steps, f);
+    let limit = if last > first { (f64::INFINITY, last) } else { (0.0, first) };
+    let top = maxima.into_iter().filter(|own| own.1 > limit.1 * FLAT);
+    top.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(limit)
+}
+
 /// As [`maximum`], unless `f` breaks the search off.
 pub fn maximum_unless<B>(
     mut low: f64,

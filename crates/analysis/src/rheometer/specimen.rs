@@ -7,7 +7,7 @@ use dashpot_network::{
     parameters::InvalidParameter,
     part,
 };
-use dashpot_numerics::extrema::maximum;
+use dashpot_numerics::extrema::maxima;
 use dashpot_rheology::{KelvinForm, LinearModel, MaxwellForm};
 
 use super::{Figure, Note, RheometerError, history::logarithmic};
@@ -45,20 +45,22 @@ impl Specimen {
             });
         }
         let linear = linear_model(model);
+        if !linear.is_in_range() {
+            return Err(RheometerError::OutOfScale);
+        }
         let times = |form: &MaxwellForm| -> Vec<f64> {
             form.elements().iter().map(|element| element.relaxation_time).collect()
         };
         let delays = |form: &KelvinForm| -> Vec<f64> {
             form.elements().iter().map(|element| element.retardation_time).collect()
         };
-        let specimen = Self {
+        Ok(Self {
             model: model.clone(),
             relaxation_times: linear.maxwell().map(times).unwrap_or_default(),
             retardation_times: linear.kelvin().map(delays).unwrap_or_default(),
             linear: Some(linear),
             nonlinear: None,
-        };
-        if specimen.is_in_range() { Ok(specimen) } else { Err(RheometerError::OutOfScale) }
+        })
     }
 
     /// The model as it was given.
@@ -149,33 +151,6 @@ impl Specimen {
             figure("viscosity", "N s/m", linear.viscosity(), Note::Solid),
         ]
     }
-
-    fn is_in_range(&self) -> bool {
-        let is_good = |value: f64| value.is_finite() && value >= 0.0;
-        let is_positive = |value: f64| value.is_finite() && value > 0.0;
-        let maxwell = self.maxwell().is_none_or(|form| {
-            let elements = form.elements();
-            let mut all = elements.iter().flat_map(|element| {
-                [element.stiffness, element.damping, element.relaxation_time, element.rate.high()]
-            });
-            is_good(form.spring()) && is_good(form.dashpot()) && all.all(is_positive)
-        });
-        maxwell
-            && self.kelvin().is_none_or(|form| {
-                let elements = form.elements();
-                let mut all = elements.iter().flat_map(|element| {
-                    [
-                        element.compliance,
-                        element.damping,
-                        element.retardation_time,
-                        element.rate.high(),
-                    ]
-                });
-                is_good(form.spring_compliance())
-                    && is_good(form.fluidity())
-                    && all.all(is_positive)
-            })
-    }
 }
 
 /// Looks at every part of a model; its depth has no limit.
@@ -203,33 +178,15 @@ const EACH_DECADE: f64 = 24.0;
 /// Steps of the golden section: `0.618^60` is beyond what the peak can resolve.
 const STEPS: usize = 60;
 
-/// A peak of the loss factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Peak {
-    /// Angular frequency \[rad/s\], good to about 1e-8 of itself.
-    pub(super) omega: f64,
-    /// The loss factor there.
-    pub(super) value: f64,
-}
-
-/// The highest of the peaks that the loss factor has at finite frequencies; `None` where it has none.
-pub(super) fn highest_loss_factor(specimen: &Specimen) -> Option<Peak> {
+/// The highest of the peaks that the loss factor has at finite frequencies, as its angular frequency \[rad/s\], good to
+/// about 1e-8 of itself, and its value; `None` where it has none.
+pub(super) fn highest_loss_factor(specimen: &Specimen) -> Option<(f64, f64)> {
     let linear = specimen.linear()?;
     let (fastest, slowest) = specimen.range_of_times();
     let (low, high) = (1.0 / (BEYOND * slowest), BEYOND / fastest);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousands")]
     let count = (EACH_DECADE * (high / low).log10()).ceil() as usize + 1;
     let places = logarithmic(low, high, count);
-    let factor = |omega: f64| linear.loss_factor(omega);
-    let values: Vec<f64> = places.iter().map(|&omega| factor(omega)).collect();
-    let tops = (1..places.len().saturating_sub(1))
-        .filter(|&at| values[at] > values[at - 1] && values[at] >= values[at + 1]);
-    tops.map(|at| refined(&factor, places[at - 1], places[at + 1]))
-        .max_by(|one, other| one.value.total_cmp(&other.value))
-}
-
-/// The peak between two frequencies, by golden section in the logarithm.
-fn refined(factor: &impl Fn(f64) -> f64, low: f64, high: f64) -> Peak {
-    let (place, value) = maximum(low.ln(), high.ln(), STEPS, |place| factor(place.exp()));
-    Peak { omega: place.exp(), value }
+    let (peaks, _) = maxima(&places, STEPS, |omega| linear.loss_factor(omega));
+    peaks.into_iter().max_by(|one, other| one.1.total_cmp(&other.1))
 }

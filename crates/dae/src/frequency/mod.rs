@@ -262,30 +262,24 @@ pub fn poles(system: &System) -> Option<Vec<Complex<f64>>> {
     if !system.is_linear() || system.len() > MOST_UNKNOWNS {
         return None;
     }
-    let found = eigenvalues(&reduced(system)?)?;
+    let found = free_rates(system, &DMatrix::from(&system.jacobian))?;
     let poles: Vec<Complex<f64>> = found.iter().map(|own| own / system.time_scale).collect();
     poles.iter().all(|pole| pole.re.is_finite() && pole.im.is_finite()).then_some(poles)
 }
 
-/// The matrix of the differential unknowns alone.
-fn reduced(system: &System) -> Option<DMatrix<f64>> {
-    let (mut own, mut others) = (Vec::new(), Vec::new());
-    for (at, unknown) in system.unknowns.iter().enumerate() {
-        match unknown.kind {
-            UnknownKind::Differential => own.push(at),
-            UnknownKind::Algebraic => others.push(at),
-        }
-    }
-    let full = DMatrix::from(&system.jacobian);
+/// The eigenvalues of `M ẏ = J y` with the mass matrix of `system`, in its own unit of time: those of the differential
+/// unknowns, which the algebraic ones follow.
+pub(crate) fn free_rates(system: &System, jacobian: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let moves = |at: &usize| system.unknowns[*at].kind == UnknownKind::Differential;
+    let (own, others): (Vec<usize>, Vec<usize>) = (0..system.len()).partition(moves);
     let part = |rows: &[usize], columns: &[usize]| {
-        DMatrix::from_fn(rows.len(), columns.len(), |i, j| full[(rows[i], columns[j])])
+        DMatrix::from_fn(rows.len(), columns.len(), |i, j| jacobian[(rows[i], columns[j])])
     };
-    let matrix = part(&own, &own);
-    if others.is_empty() {
-        return Some(matrix);
+    let mut matrix = part(&own, &own);
+    if !others.is_empty() {
+        matrix -= part(&own, &others) * part(&others, &others).lu().solve(&part(&others, &own))?;
     }
-    let followed = part(&others, &others).lu().solve(&part(&others, &own))?;
-    Some(matrix - part(&own, &others) * followed)
+    eigenvalues(&matrix)
 }
 
 #[cfg(test)]

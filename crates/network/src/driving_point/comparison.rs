@@ -1,6 +1,6 @@
 //! Whether two receptances are the same, decided on their poles and strengths.
 
-use dashpot_numerics::extrema::maximum;
+use dashpot_numerics::extrema::largest_on_half_line;
 
 use super::{Receptance, complex::Complex, terms::Term};
 use crate::compile::bodies::Groups;
@@ -184,26 +184,7 @@ fn worst_frequency(a: &Receptance, b: &Receptance) -> (f64, f64) {
     }
     points.extend([high * 1e3, high * FAR.sqrt(), high * FAR]);
     points.dedup();
-    let values: Vec<f64> = points.iter().map(|&omega| apart(a, b, omega)).collect();
-    let last = points.len() - 1;
-    let mut best = (0.0, values[0]);
-    for at in 1..last {
-        let is_peak = values[at] >= values[at - 1] && values[at] >= values[at + 1];
-        if is_peak && values[at] > 0.0 {
-            let value = |x: f64| apart(a, b, x.exp());
-            let (place, height) = maximum(points[at - 1].ln(), points[at + 1].ln(), STEPS, value);
-            let peak = (place.exp(), height);
-            let peak = if peak.1 > values[at] { peak } else { (points[at], values[at]) };
-            // Beyond the limits' own rounding, so that a plateau is reported as a limit.
-            if peak.1 > best.1 * (1.0 + 1e-6) {
-                best = peak;
-            }
-        }
-    }
-    if values[last] > best.1 * (1.0 - 1e-6) && values[last] > values[0] {
-        best = (f64::INFINITY, values[last]);
-    }
-    best
+    largest_on_half_line(&points, STEPS, |omega| apart(a, b, omega))
 }
 
 /// Relative difference at one frequency.

@@ -1,6 +1,6 @@
 //! Where two models differ most.
 
-use dashpot_numerics::extrema::maximum;
+use dashpot_numerics::extrema::largest_on_half_line;
 use nalgebra::Complex;
 
 use super::{Aligned, aligned};
@@ -18,8 +18,6 @@ const ROOM: f64 = 0.01;
 const BEYOND: f64 = 7.0;
 /// How far beyond them there is one more, which stands for the limit, as a logarithm.
 const LIMIT: f64 = 30.0;
-/// What is no more than this above a limit, relatively, is the limit.
-const FLAT: f64 = 1e-6;
 /// Steps of the golden section: to 10⁻⁶ of the distance of two points.
 const STEPS: usize = 30;
 
@@ -42,13 +40,14 @@ impl Disagreement {
     pub(super) fn of(first: &LinearModel, second: &LinearModel) -> Option<Self> {
         let (a, b) = first.maxwell().zip(second.maxwell()).map(|(a, b)| (&a.0, &b.0))?;
         let pairs: Vec<Aligned<'_>> = aligned(&a.lines, &b.lines).collect();
-        let (omega, stiffness) = largest(&places([a, b], |rate| rate), |omega| {
-            let difference = difference(a, b, &pairs, omega).norm();
-            difference / stiffness_at(a, omega).norm().max(stiffness_at(b, omega).norm())
-        });
+        let (omega, stiffness) =
+            largest_on_half_line(&places([a, b], |rate| rate), STEPS, |omega| {
+                let difference = difference(a, b, &pairs, omega).norm();
+                difference / stiffness_at(a, omega).norm().max(stiffness_at(b, omega).norm())
+            });
         let (a, b) = first.kelvin().zip(second.kelvin()).map(|(a, b)| (&a.0, &b.0))?;
         let pairs: Vec<Aligned<'_>> = aligned(&a.lines, &b.lines).collect();
-        let (time, creep) = largest(&places([a, b], f64::recip), |time| {
+        let (time, creep) = largest_on_half_line(&places([a, b], f64::recip), STEPS, |time| {
             creep_difference(a, b, &pairs, time).abs() / first.creep(time).max(second.creep(time))
         });
         Some(Self { omega, stiffness, time, creep })
@@ -86,25 +85,6 @@ fn places(forms: [&Fractions; 2], place: fn(f64) -> f64) -> Vec<f64> {
     all.iter_mut().for_each(|place| *place = place.exp());
     all.retain(|place| place.is_normal());
     all
-}
-
-/// The largest value and its place, refined between its neighbours on a logarithmic scale; 0 and
-/// infinity where a limit is the largest, and 0 where it is the same everywhere.
-fn largest(places: &[f64], value: impl Fn(f64) -> f64) -> (f64, f64) {
-    let all: Vec<f64> = places.iter().map(|&at| value(at)).collect();
-    let [_, .., _] = places else { return (0.0, all[0]) };
-    let last = all.len() - 1;
-    let by_value = |a: &usize, b: &usize| all[*a].total_cmp(&all[*b]);
-    let limit = if all[last] > all[0] { last } else { 0 };
-    // On a plateau rounding would decide, so a maximum has to stand out.
-    let stands_out = |own: &usize| all[*own] > all[limit] * (1.0 + FLAT);
-    let Some(top) = (1..last).filter(stands_out).max_by(by_value) else {
-        return (if limit == 0 { 0.0 } else { f64::INFINITY }, all[limit]);
-    };
-    let best = (places[top], all[top]);
-    let (low, high) = (places[top - 1].ln(), places[top + 1].ln());
-    let (place, found) = maximum(low, high, STEPS, |place| value(place.exp()));
-    if found > best.1 { (place.exp(), found) } else { best }
 }
 
 /// `iω/(iω + r)`.

@@ -2,12 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_dae::{Piece, System, UnknownKind, Waveform};
+use dashpot_dae::{
+    Piece, Waveform,
+    frequency::{Amplitude, FrequencyResponse},
+};
 use dashpot_network::{
     Model, Network, Node, parameters,
     parameters::{InvalidParameter, Kind as _},
 };
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::Complex;
 
 use super::{POINTS, USUAL_POINTS, deforms, points_used, setting};
 use crate::{
@@ -16,7 +19,6 @@ use crate::{
         FROM_THE_MODEL, Figure, Note, Obstacle, ProtocolKind, RheometerError, RheometerReport,
         Specimen, Tested,
         history::logarithmic,
-        perturbation::{CAUTION, SEEDS, perturb, perturbed},
         report::{Computation, Computed, Disagreement, Series},
         specimen::highest_loss_factor,
     },
@@ -99,23 +101,15 @@ fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f
     let (fastest, slowest) = specimen.range_of_times();
     let frequencies = &report.abscissa.values;
     let time = fastest.sqrt() * slowest.sqrt();
-    let sweep = |shaker: &Shaker| -> Vec<Option<Complex<f64>>> {
-        frequencies.iter().map(|frequency| shaker.stiffness(TAU * frequency)).collect()
-    };
-    let again = |seed: u64| {
-        let shaker = Shaker::new(&perturbed(specimen.model(), seed), time).ok()?;
-        Some(sweep(&shaker.perturbed(seed)))
-    };
-    let (found, obstacle) = match Shaker::new(specimen.model(), time).map(|own| sweep(&own)) {
+    let (found, obstacle) = match shaken(specimen.model(), time, frequencies) {
         Ok(found) => (found, None),
         Err(reason) => (vec![None; frequencies.len()], Some(reason)),
     };
-    let again: Vec<_> = SEEDS.iter().filter_map(|&seed| again(seed)).collect();
-    // Where nothing was found nothing is compared, whatever stands there.
-    let base: Vec<Complex<f64>> = found.iter().map(|own| own.unwrap_or_default()).collect();
+    let relative =
+        |own: &Amplitude| if own.error == 0.0 { 0.0 } else { own.error / own.value.norm() };
+    let stated = found.iter().flatten().map(relative).reduce(f64::max);
+    let found: Vec<_> = found.into_iter().map(|own| own.map(|own| own.value)).collect();
     for (series, quantity) in report.series.iter_mut().zip(&QUANTITIES) {
-        let moved = again.iter().filter_map(|own| quantity.largest(&base, own, frequencies));
-        let stated = moved.map(|moved| CAUTION * moved.relative).reduce(f64::max);
         let difference = quantity.largest(model, &found, frequencies);
         let difference = difference.map(|difference| Disagreement { stated, ..difference });
         let values = found.iter().map(|value| value.map(quantity.read)).collect();
@@ -124,6 +118,29 @@ fn compute(report: &mut RheometerReport, specimen: &Specimen, model: &[Complex<f
     let reach = frequencies.iter().zip(&found).filter(|(_, value)| value.is_some());
     let reach = reach.map(|(&frequency, _)| frequency).reduce(f64::max);
     report.computations.push(Computation { method: METHOD, reach, obstacle });
+}
+
+/// The force over the deformation \[N/m\] of the network of `model` whose head moves to and fro at each of the
+/// `frequencies` \[Hz\], `None` where its equations have no finite solution; or why there is no network. `time` \[s\]
+/// is what its times are like.
+fn shaken(
+    model: &Model,
+    time: f64,
+    frequencies: &[f64],
+) -> Result<Vec<Option<Amplitude>>, Obstacle> {
+    let wave = Piece { sine: 1.0, omega: 1.0 / time, ..Piece::default() };
+    let motion = Waveform::new(vec![wave]).ok_or(Obstacle::OutOfRange)?;
+    let mut network = Network::new();
+    let head = network.add_node(Node::prescribed("head", motion));
+    network.connect("model", head, network.ground(), model.clone());
+    let assembly = network.compile(time)?;
+    let force = assembly.connections.first().and_then(|connection| connection.force);
+    let force = force.ok_or(Obstacle::Undetermined)?;
+    let unit = assembly.system.waveforms.first().map_or(0.0, |own| own.pieces()[0].sine);
+    let response = FrequencyResponse::new(&assembly.system, 0, unit).ok();
+    let at =
+        |frequency: &f64| Some(response.as_ref()?.at(TAU * frequency)?.amplitude(&[(force, 1.0)]));
+    Ok(frequencies.iter().map(at).collect())
 }
 
 /// What a series of a sweep shows, and how far two values are apart.
@@ -182,8 +199,8 @@ fn add_peak(report: &mut RheometerReport, specimen: &Specimen) {
     let figure = |name, unit, value: Option<f64>| {
         Figure::of(name, unit, value.unwrap_or(f64::NAN)).noting(Note::NoLossPeak)
     };
-    report.figures.push(figure("peak of the loss factor", "1", peak.map(|peak| peak.value)));
-    report.figures.push(figure("frequency of the peak", "Hz", peak.map(|peak| peak.omega / TAU)));
+    report.figures.push(figure("peak of the loss factor", "1", peak.map(|peak| peak.1)));
+    report.figures.push(figure("frequency of the peak", "Hz", peak.map(|peak| peak.0 / TAU)));
     let Some(linear) = specimen.linear() else { return };
     if linear.kelvin().is_none() {
         report.notes.push(Note::NoForce);
@@ -194,99 +211,5 @@ fn add_peak(report: &mut RheometerReport, specimen: &Specimen) {
     }
     if linear.maxwell().is_some_and(|form| form.dashpot() > 0.0) {
         report.notes.push(Note::DashpotLoss);
-    }
-}
-
-/// Rounds of iterative refinement.
-const REFINEMENTS: usize = 2;
-
-/// The network of a model whose head moves to and fro, compiled, at any frequency.
-#[derive(Debug)]
-pub(super) struct Shaker {
-    system: System,
-    force: usize,
-    /// The dimensionless value of an amplitude of 1 m.
-    amplitude: f64,
-}
-
-impl Shaker {
-    /// The network of `model`, or why there is none; `time` \[s\] is what its times are like.
-    pub(super) fn new(model: &Model, time: f64) -> Result<Self, Obstacle> {
-        let wave = Piece { sine: 1.0, omega: 1.0 / time, ..Piece::default() };
-        let motion = Waveform::new(vec![wave]).ok_or(Obstacle::OutOfRange)?;
-        let mut network = Network::new();
-        let head = network.add_node(Node::prescribed("head", motion));
-        network.connect("model", head, network.ground(), model.clone());
-        let assembly = network.compile(time)?;
-        let force = assembly.connections.first().and_then(|connection| connection.force);
-        let force = force.ok_or(Obstacle::Undetermined)?;
-        let amplitude =
-            assembly.system.waveforms.first().map_or(0.0, |waveform| waveform.pieces()[0].sine);
-        Ok(Self { system: assembly.system, force, amplitude })
-    }
-
-    /// The same network with each coefficient of its equations moved by a rounding.
-    pub(super) fn perturbed(mut self, seed: u64) -> Self {
-        perturb(&mut self.system, seed);
-        self
-    }
-
-    /// The force over the deformation \[N/m\] in steady oscillation with the angular frequency
-    /// `omega` \[rad/s\]: `(iω M − J) y = B w` is solved as it stands.
-    ///
-    /// `None` where the equations have no finite solution.
-    pub(super) fn stiffness(&self, omega: f64) -> Option<Complex<f64>> {
-        let system = &self.system;
-        let s = Complex::new(0.0, omega * system.time_scale);
-        let inputs: Vec<Complex<f64>> =
-            system.inputs.iter().map(|input| s.powu(input.derivative) * self.amplitude).collect();
-        let count = system.len();
-        let mut matrix = DMatrix::<Complex<f64>>::zeros(count, count);
-        for (row, column, value) in system.jacobian.triplet_iter() {
-            matrix[(row, column)] -= Complex::from(*value);
-        }
-        for (at, unknown) in system.unknowns.iter().enumerate() {
-            if unknown.kind == UnknownKind::Differential {
-                matrix[(at, at)] += s;
-            }
-        }
-        let mut right = DVector::<Complex<f64>>::zeros(count);
-        for (row, column, value) in system.input_matrix.triplet_iter() {
-            right[row] += inputs[column] * *value;
-        }
-        let state = solve(matrix, right)?;
-        let output = system.outputs.at(self.force);
-        let own = output.unknowns.terms().map(|(at, weight)| state[at] * weight);
-        let given = output.inputs.terms().map(|(at, weight)| inputs[at] * weight);
-        let force = own.chain(given).sum::<Complex<f64>>() * output.scale;
-        (force.re.is_finite() && force.im.is_finite()).then_some(force)
-    }
-}
-
-/// The solution of `matrix · y = right`, refined; `None` where the matrix is singular.
-fn solve(
-    mut matrix: DMatrix<Complex<f64>>,
-    mut right: DVector<Complex<f64>>,
-) -> Option<DVector<Complex<f64>>> {
-    if matrix.is_empty() {
-        return Some(right);
-    }
-    level(&mut matrix, &mut right);
-    let factors = matrix.clone().lu();
-    let mut state = factors.solve(&right)?;
-    for _ in 0..REFINEMENTS {
-        state += factors.solve(&(&right - &matrix * &state))?;
-    }
-    Some(state)
-}
-
-/// Brings the largest entry of each row to about one.
-fn level(matrix: &mut DMatrix<Complex<f64>>, right: &mut DVector<Complex<f64>>) {
-    for row in 0..matrix.nrows() {
-        let largest = matrix.row(row).iter().map(|entry| entry.norm()).fold(0.0, f64::max);
-        if largest > 0.0 {
-            matrix.row_mut(row).iter_mut().for_each(|entry| *entry /= largest);
-            right[row] /= largest;
-        }
     }
 }

@@ -1,11 +1,10 @@
 //! A system whose balances are solved wherever its slopes are asked for.
 
-use dashpot_numerics::decompositions::eigenvalues;
 use nalgebra::DMatrix;
 use nalgebra_sparse::CsrMatrix;
 
 use super::super::MOST_EXPLICIT;
-use crate::{System, UnknownKind};
+use crate::{System, UnknownKind, frequency::free_rates};
 
 /// Newton steps in a row.
 const STEPS: usize = 25;
@@ -124,19 +123,7 @@ impl<'s> Reduced<'s> {
         }
         let mut y = state.to_vec();
         self.balance(t, &mut y).ok()?;
-        let whole = self.linearised(&y);
-        let block = |rows: &[usize], columns: &[usize]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
-                whole[(rows[row], columns[column])]
-            })
-        };
-        let (moving, balanced) = (&self.differential, &self.algebraic);
-        let mut rates = block(moving, moving);
-        if !balanced.is_empty() {
-            let follow = block(balanced, balanced).lu().solve(&block(balanced, moving))?;
-            rates -= block(moving, balanced) * follow;
-        }
-        let all = eigenvalues(&rates)?;
+        let all = free_rates(self.system, &self.linearised(&y))?;
         Some(all.iter().map(|rate| Rate { decay: -rate.re, size: rate.norm() }).collect())
     }
 
