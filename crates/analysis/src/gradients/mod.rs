@@ -33,9 +33,9 @@ const EXACT_STEPS: [f64; 2] = [3e-5, 5e-6];
 const WIDEST: f64 = 1e-2;
 const NARROWEST: f64 = 1e-3;
 /// Tolerances of solutions next to each other, in parts of that of the run: the first at which one of them takes no more
-/// than so many times the work of the run.
+/// than so many times the work of the run with all its solutions.
 const TIGHTER: [f64; 3] = [1e-3, 1e-2, 1e-1];
-const MOST_WORK: u64 = 20;
+const MOST_WORK: u64 = 4;
 /// So much work is always allowed, some 0.1 s.
 const LEAST_WORK: u64 = 3_000_000;
 /// The tightest tolerance there is.
