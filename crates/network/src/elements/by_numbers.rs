@@ -20,6 +20,11 @@ pub(super) const PLACES: [f64; 13] =
 /// What a force may fall by, and have at rest, in parts of the largest one: its rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// What is asked of a law, and where one pulls back while it is still pressed in, what makes it so.
+const RISES: &str = "a law that falls nowhere";
+const NEVER_PULLS: &str =
+    "a law that falls nowhere, as `max(0, …)` of one of a contact, which never pulls, does";
+
 /// Whether a law, given by `parameter`, has a force at all [`PLACES`], none of it at rest, and falls between none of
 /// them.
 pub(super) fn rises<E: Element + ?Sized>(
@@ -45,7 +50,10 @@ pub(super) fn rises<E: Element + ?Sized>(
             for (y_before, v_before) in [(y.saturating_sub(1), v), (y, v.saturating_sub(1))] {
                 if own < forces[y_before][v_before] - ROUNDING * size {
                     let found = format!("{} after {}", told(y, v), told(y_before, v_before));
-                    return invalid("a law that falls nowhere", found);
+                    return invalid(
+                        if y > middle && own < 0.0 { NEVER_PULLS } else { RISES },
+                        found,
+                    );
                 }
             }
         }

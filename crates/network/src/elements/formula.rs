@@ -283,11 +283,15 @@ mod tests {
             ("-2 kN/m * y", "falls nowhere"),
             ("2 kN/m * v", "a force of `y` and `v`"),
             ("0 * y * 1 N/m", "a law with a force"),
+            // Damped as Tsuji has it, a contact pulls on its way out.
+            ("2 MN * (max(0, y) / 1 m)^1.5 + 3 kN s/m * (max(0, y) / 1 m)^0.25 * v", "`max(0, …)`"),
         ];
         for (text, reason) in cases {
             let error = made(text, None).expect_err(text);
             assert!(error.contains(reason), "{text}: {error}");
         }
         assert!(made("2 kN * y / (20 mm - y)", Some(0.015)).is_ok());
+        let pushes = "max(0, 2 MN * (max(0, y) / 1 m)^1.5 + 3 kN s/m * (max(0, y) / 1 m)^0.25 * v)";
+        assert!(made(pushes, Some(0.04)).is_ok());
     }
 }

@@ -287,7 +287,10 @@ impl PhasedNetwork {
         let names =
             if names.is_empty() { "the parts that switch".to_owned() } else { names.join(", ") };
         let why = refusal.map_or(String::new(), |reason| format!("; {reason}"));
-        let reason = format!("there are no phases that {names} could go on in{why}");
+        let reason = format!(
+            "no state of {names}, held, sliding or apart, agrees with the forces{why}; where events meet at \
+             one instant, another method or tolerance, or a gap that is a little different, parts them"
+        );
         SolveError::Switching { time, reason }
     }
 
