@@ -230,7 +230,7 @@ fn slips_of_the_command_line_are_told_with_what_to_write() {
         (vec!["run", folder], "name a file in it"),
         (vec!["new", "pad.toml"], "`--out FILE.toml` says which file is written"),
         (vec!["list", "maxwel"], "did you mean `maxwell`?"),
-        // Another number is another standard.
+        // Its first words are nearer than another number.
         (vec!["run", scene, "--limit", "head.hic15=fmvss-208"], "did you mean `fmvss-208-hic15`?"),
         (vec!["cushion", scene, "--stress", "1..10"], "\"1..10 kPa\" or \"1..10 Pa\""),
         ([&convert[..], &[text(&nowhere)]].concat(), &missing),

@@ -1,7 +1,6 @@
 //! The word that was probably meant.
 
-/// The word of `known` that is nearest to `word` in letters, if one is near: the first that goes on behind it with a hyphen,
-/// and none that differs in the digits of a number, which is another thing.
+/// The word of `known` that is nearest to `word` in letters, if one is near: the first that goes on behind it with a hyphen.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let lower = word.to_lowercase();
     let limit = match lower.chars().count() {
@@ -9,8 +8,6 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         1..=3 => 1,
         count => (count / 3).max(2),
     };
-    let digits = |own: &str| own.chars().filter(char::is_ascii_digit).collect::<String>();
-    let of_word = digits(&lower);
     known
         .into_iter()
         .filter_map(|candidate| {
@@ -19,10 +16,8 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
                 return Some((0, candidate));
             }
             let distance = strsim::damerau_levenshtein(&lower, &other);
-            let of_other = digits(&other);
-            let is_other_number = of_other.len() == of_word.len() && of_other != of_word;
             let is_near = distance <= limit && distance < candidate.chars().count();
-            (is_near && !is_other_number).then_some((distance, candidate))
+            is_near.then_some((distance, candidate))
         })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)

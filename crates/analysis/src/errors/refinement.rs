@@ -78,9 +78,7 @@ struct Descent {
 }
 
 impl Descent {
-    /// A descent within what is `left` of a budget: were the first solution more than its part, as many as error bars
-    /// take would not come to an end.
-    fn within(left: u64) -> Self {
+    fn new() -> Self {
         Self {
             last: Vec::new(),
             solves: 0,
@@ -88,7 +86,7 @@ impl Descent {
             obstacle: None,
             alike: 0,
             left: SOLUTIONS_FOR_ENDS,
-            most: ALWAYS.max(left / SOLUTIONS as u64),
+            most: u64::MAX,
         }
     }
 
@@ -219,7 +217,7 @@ impl Task<'_> {
     /// Solutions at falling tolerances: as many as error bars take if the tolerance is given, else
     /// until the accuracy is reached.
     fn refined(&self, run: &Run, observer: &mut dyn Observer) -> Result<Outcome, SolveError> {
-        let mut descent = Descent::within(run.budget.left());
+        let mut descent = Descent::new();
         for rtol in tolerances(self.settings.rtol) {
             let budget = run.budget.part(descent.most);
             let own = Run { budget: budget.clone(), ..run.clone() }.with_rtol(rtol);

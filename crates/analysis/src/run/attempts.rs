@@ -12,8 +12,8 @@ use crate::{
     },
 };
 
-/// Work of a further method in parts of that of the first, where there is a solution already that is not as good as is
-/// wanted, and its most: half of [`AFTER_ANOTHER`].
+/// Work of a further method in parts of what has been done before it, where there is a solution already that is not as
+/// good as is wanted, and its most: half of [`AFTER_ANOTHER`].
 const FURTHER: u64 = 4;
 const MOST_FURTHER: u64 = AFTER_ANOTHER / 2;
 /// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
@@ -111,7 +111,7 @@ pub(crate) fn of_a_part(
 /// A better solution by one of the `others`, where that which was `found` is not as good as is wanted and
 /// its own method cannot make it so.
 ///
-/// Each may take a few times the work that it was, and no more than some seconds, which is what it may where nothing is
+/// Each may take a few times the work before it, and no more than some seconds, which is what it may where nothing is
 /// known of its errors: an oscillation that `exact` follows for long takes many steps. Theirs is better where nothing was
 /// known of its errors, or where none of their bars is wider beyond what is wanted, and one is narrower.
 pub(crate) fn improved(
@@ -127,7 +127,6 @@ pub(crate) fn improved(
     let is_explicit = found.method.name() == methods::Dop853.name();
     let is_tried = |other: &Arc<dyn Method>| is_explicit && other.name() == methods::Bdf.name();
     let others = others.into_iter().rev().filter(|other| other.name() != last_resort);
-    let further = (FURTHER.saturating_mul(run.budget.done())).clamp(ALWAYS, MOST_FURTHER);
     for other in others.filter(|other| !is_tried(other)) {
         let before = Task { method: found.method.as_ref(), ..*task };
         let is_stuck = found.method.is_exact() || found.outcome.obstacle.is_some();
@@ -135,6 +134,7 @@ pub(crate) fn improved(
             break;
         }
         let is_known = before.knows(&found.outcome);
+        let further = FURTHER.saturating_mul(run.budget.done()).clamp(ALWAYS, MOST_FURTHER);
         let budget = run.budget.part(if is_known { further } else { AFTER_ANOTHER });
         let own = Task { method: other.as_ref(), ..*task };
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };

@@ -53,7 +53,7 @@ fn order(study: &Study) -> Claim {
     for (name, mark) in quantities {
         let of = |own: &Impact| mark.map_or_else(|| own.peak().value, |mark| mark.energy(own));
         let mut each =
-            study.groups.each_ref().map(|group| (group.varied.symbol(), elasticity(group, &of)));
+            study.groups.each_ref().map(|group| (group.varied.symbol(), elasticity(group, of)));
         let texts = each.map(|own| significant(own.1, 2));
         each.sort_by(|one, other| other.1.abs().total_cmp(&one.1.abs()));
         let found = each.map(|own| own.0);
