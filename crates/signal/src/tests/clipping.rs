@@ -6,8 +6,10 @@ use super::*;
 
 /// A half-sine of 150 g and 10 ms from 10 ms on, recorded at this rate \[kHz\], each sample as a recorder makes it.
 fn recorded(rate: f64, shift: f64, mut recorder: impl FnMut(f64) -> f64) -> Channel {
-    let times: Vec<f64> =
-        (0..).map(|at| f64::from(at) / (1e3 * rate)).take_while(|own| *own < 0.04).collect();
+    let times: Vec<f64> = (0..u32::MAX)
+        .map(|at| f64::from(at) / (1e3 * rate))
+        .take_while(|own| *own < 0.04)
+        .collect();
     let value = |time: &f64| {
         let place = (time - 0.01) / 0.01 - shift / (10.0 * rate);
         if (0.0..1.0).contains(&place) { 150.0 * (PI * place).sin() } else { 0.0 }
