@@ -65,13 +65,6 @@ impl Budget {
         self.account.as_ref().map_or(0, |account| account.done.load(Relaxed))
     }
 
-    /// The work that is left; without a limit the largest number.
-    pub fn left(&self) -> u64 {
-        self.account.as_ref().map_or(u64::MAX, |account| {
-            account.limit.saturating_sub(account.done.load(Relaxed)).min(account.whole.left())
-        })
-    }
-
     /// Whether no work is left.
     pub fn is_spent(&self) -> bool {
         self.charge(0)
@@ -158,7 +151,6 @@ mod tests {
         assert!(!other.charge(69) && other.charge(1));
         assert!(whole.is_spent());
         assert_eq!((part.done(), other.done(), whole.done()), (31, 70, 101));
-        assert_eq!((other.left(), whole.left()), (0, 0));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Method, Observer, Run, SolveError, methods};
+use dashpot_dae::{Budget, Method, Observer, Run, SolveError, methods};
 
 use crate::{
     RunError,
@@ -12,14 +12,13 @@ use crate::{
     },
 };
 
-/// Work of a further method in parts of what has been done before it, where there is a solution already that is not as
-/// good as is wanted, and its most: half of [`AFTER_ANOTHER`].
+/// Work of a further method in parts of what has been done before it, where there is a solution already
+/// that is not as good as is wanted.
 const FURTHER: u64 = 4;
-const MOST_FURTHER: u64 = AFTER_ANOTHER / 2;
 /// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
 /// not excited.
 pub(crate) const UNDEFINED: u64 = 2_000_000;
-/// Work of a method after one that has failed: some seconds.
+/// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
 /// Such work that is always granted: some tenths of a second.
 const ALWAYS: u64 = 20_000_000;
@@ -47,8 +46,8 @@ pub(crate) fn first_that_solves(
     let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
     let mut short: Vec<Arc<dyn Method>> = Vec::new();
     loop {
-        let share = if others.is_empty() { u64::MAX } else { run.budget.left() / 2 };
-        let granted = if first.is_some() { AFTER_ANOTHER } else { u64::MAX };
+        let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
+        let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { u64::MAX };
         let share = run.budget.part(share.min(granted).min(most));
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
@@ -94,6 +93,10 @@ pub(crate) fn first_that_solves(
     }
 }
 
+fn half(budget: &Budget, task: &Task<'_>) -> u64 {
+    task.settings.budget.saturating_sub(budget.done()) / 2
+}
+
 /// The exact solution of the part of a run that ends at `reach` \[s\], and that part.
 pub(crate) fn of_a_part(
     task: &Task<'_>,
@@ -111,9 +114,9 @@ pub(crate) fn of_a_part(
 /// A better solution by one of the `others`, where that which was `found` is not as good as is wanted and
 /// its own method cannot make it so.
 ///
-/// Each may take a few times the work before it, and no more than some seconds, which is what it may where nothing is
-/// known of its errors: an oscillation that `exact` follows for long takes many steps. Theirs is better where nothing was
-/// known of its errors, or where none of their bars is wider beyond what is wanted, and one is narrower.
+/// They may take a few times the work that it was, or where nothing is known of its errors some seconds. Theirs is
+/// better where nothing was known of its errors, or where none of their bars is wider beyond what is wanted, and one
+/// is narrower.
 pub(crate) fn improved(
     task: &Task<'_>,
     run: &Run,
@@ -134,8 +137,8 @@ pub(crate) fn improved(
             break;
         }
         let is_known = before.knows(&found.outcome);
-        let further = FURTHER.saturating_mul(run.budget.done()).clamp(ALWAYS, MOST_FURTHER);
-        let budget = run.budget.part(if is_known { further } else { AFTER_ANOTHER });
+        let least = if is_known { ALWAYS } else { AFTER_ANOTHER };
+        let budget = run.budget.part(least.max(FURTHER * run.budget.done()));
         let own = Task { method: other.as_ref(), ..*task };
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
         let is_better =

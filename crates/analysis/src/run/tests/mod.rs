@@ -1,4 +1,3 @@
-mod cost;
 mod faults;
 mod preloads;
 mod random;
