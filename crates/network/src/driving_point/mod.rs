@@ -16,12 +16,12 @@ mod complex;
 mod dynamic;
 mod hessenberg;
 mod jacobi;
-mod kelvin;
 mod limits;
 mod links;
-mod massive;
+mod massless;
 mod modes;
 mod receptance;
+mod response;
 mod spectrum;
 mod terms;
 
@@ -141,10 +141,11 @@ impl Network {
             let model = LinearModel::primitive(Primitive::Rigid);
             return Ok(Response::Massless(Massless { model, hidden: Vec::new(), error: 0.0 }));
         };
-        if circuit.is_massless() {
-            kelvin::response(&circuit).map(Response::Massless)
+        let receptance = response::response(&circuit)?;
+        Ok(if circuit.is_massless() {
+            Response::Massless(receptance.massless())
         } else {
-            massive::response(&circuit).map(Response::Massive)
-        }
+            Response::Massive(receptance)
+        })
     }
 }

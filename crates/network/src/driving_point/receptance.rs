@@ -2,7 +2,9 @@
 
 use dashpot_numerics::DoubleDouble;
 
-use super::{Hidden, complex::Complex, terms::Term};
+use dashpot_rheology::LinearModel;
+
+use super::{Hidden, Massless, complex::Complex, terms::Term};
 
 /// The receptance `H(s) = J + Σ N(s − p)/D(s − p)` of a network at two nodes: a constant and a term for each pole, or
 /// for each group of poles that stand so close that single residues would be large and opposite.
@@ -68,6 +70,16 @@ impl Receptance {
     /// The dynamic stiffness `F/y = 1/H` there \[N/m\].
     pub fn stiffness(&self, [re, im]: [f64; 2]) -> [f64; 2] {
         Complex::one().over(self.value(Complex::new(re, im))).rounded()
+    }
+
+    /// The same of a circuit without masses, whose terms are those of a Kelvin form.
+    pub(super) fn massless(self) -> Massless {
+        let real = |term: &Term| (-term.at.re, term.residues[0].re);
+        let (creep, modes): (Vec<_>, Vec<_>) =
+            self.terms.iter().map(real).partition(|mode| mode.0.high() == 0.0);
+        let fluidity = creep.first().map_or(DoubleDouble::ZERO, |creep| creep.1);
+        let model = LinearModel::from_kelvin(self.compliance, fluidity, modes);
+        Massless { model, hidden: self.hidden, error: self.error }
     }
 
     pub(super) fn value(&self, s: Complex) -> Complex {

@@ -1,4 +1,4 @@
-//! Circuits with masses: poles and strengths, computed twice.
+//! The response of a circuit: poles and residues, computed twice.
 
 use dashpot_numerics::DoubleDouble;
 
@@ -6,32 +6,35 @@ use super::{
     DrivingPointError, Hidden, Receptance,
     circuit::{Circuit, shift},
     complex::Complex,
-    kelvin::{ROUNDING, exponent},
+    massless,
     modes::modes,
     spectrum,
     terms::{Term, terms},
 };
 
-/// Most bodies of a circuit with masses.
-pub(super) const MOST_BODIES: usize = 80;
+/// Most bodies of a circuit without masses, and of one with masses.
+const MOST_BODIES: [usize; 2] = [200, 80];
 /// Terms with less than this share of the receptance are looked at again.
 const DOUBTFUL: f64 = 1e-22;
 /// What two runs with different scales of time may differ by before a third one is made.
 const WANTED: f64 = 1e-14;
 /// Exponents by which the later units of time differ from the middle of the poles.
-const OFFSETS: [i32; 3] = [3, -2, 5];
+const OFFSETS: [i32; 4] = [3, -2, 5, -4];
+/// Relative error of what is known best.
+const ROUNDING: f64 = 1e-30;
 
-/// The response of a circuit with masses.
+/// The response of a circuit.
 pub(super) fn response(circuit: &Circuit) -> Result<Receptance, DrivingPointError> {
-    if circuit.bodies > MOST_BODIES {
-        return Err(DrivingPointError::TooLarge { bodies: circuit.bodies, most: MOST_BODIES });
+    let most = MOST_BODIES[usize::from(!circuit.is_massless())];
+    if circuit.bodies > most {
+        return Err(DrivingPointError::TooLarge { bodies: circuit.bodies, most });
     }
     let (scaled, force) = circuit.scaled(0)?;
     let mut compliance = scaled.instantaneous_compliance();
     shift(&mut compliance, -force);
     let rest = Rest { compliance, term: at_rest(&scaled, force) };
-    let (found, difference, time) = settled(circuit, &rest)?;
-    let (is_hidden, faint) = hidden(circuit, &found, time, rest.total(&found))?;
+    let ([found, other], difference, time) = settled(circuit, &rest)?;
+    let (is_hidden, faint) = hidden(circuit, [&found, &other], time, rest.total(&found))?;
     let mut kept: Vec<Term> = rest.term.into_iter().collect();
     let mut cancelled = Vec::new();
     let at_rest = scaled.creeping_parts() + scaled.free_parts();
@@ -83,17 +86,17 @@ fn at_rest(scaled: &Circuit, force: i32) -> Option<Term> {
     Some(term)
 }
 
-/// The terms in physical units, with the unit of time in the middle of the poles; with them what
-/// they differ by from those of another unit of time.
-fn settled(circuit: &Circuit, rest: &Rest) -> Result<(Vec<Term>, f64, i32), DrivingPointError> {
+/// The terms in physical units, with the unit of time in the middle of the poles; with them those of another unit of
+/// time and another order of the bodies, and what they differ by.
+fn settled(circuit: &Circuit, rest: &Rest) -> Result<([Vec<Term>; 2], f64, i32), DrivingPointError> {
     let mut time = exponent(1.0 / circuit.middle_rate());
     // Another unit of time alone would repeat many roundings: it is a power of two.
     let turned = circuit.reversed();
     let mut last = run(circuit, time)?;
-    let mut best: Option<(Vec<Term>, f64, i32)> = None;
+    let mut best: Option<([Vec<Term>; 2], f64, i32)> = None;
     for round in 0..OFFSETS.len() {
         let (Some(first), Some(end)) = (last.first(), last.last()) else {
-            return Ok((last, ROUNDING, time));
+            return Ok(([last, Vec::new()], ROUNDING, time));
         };
         let middle = -0.5 * (first.at.size().log2() + end.at.size().log2());
         let centre = exponent(middle.exp2());
@@ -101,7 +104,7 @@ fn settled(circuit: &Circuit, rest: &Rest) -> Result<(Vec<Term>, f64, i32), Driv
         let next = if round % 2 == 0 { run(&turned, time)? } else { run(circuit, time)? };
         let error = difference(&next, &last, rest.total(&next));
         if best.as_ref().is_none_or(|(_, least, _)| error < *least) {
-            best = Some((next.clone(), error, time));
+            best = Some(([next.clone(), last], error, time));
         }
         if error < WANTED {
             break;
@@ -117,8 +120,11 @@ fn settled(circuit: &Circuit, rest: &Rest) -> Result<(Vec<Term>, f64, i32), Driv
 /// All terms besides that at zero, in rising order of the pole.
 fn run(circuit: &Circuit, time: i32) -> Result<Vec<Term>, DrivingPointError> {
     let (scaled, force) = circuit.scaled(time)?;
-    let poles = spectrum::poles(&scaled)?;
-    let mut found = terms(&scaled, &modes(&scaled, &poles));
+    let mut found = if circuit.is_massless() {
+        massless::terms(&scaled)?
+    } else {
+        terms(&scaled, &modes(&scaled, &spectrum::poles(&scaled)?))
+    };
     found.iter_mut().for_each(|term| term.scale(time, force));
     let is_finite = |value: &Complex| value.size().is_finite();
     if !found.iter().all(|term| is_finite(&term.at) && term.residues.iter().all(is_finite)) {
@@ -129,6 +135,12 @@ fn run(circuit: &Circuit, time: i32) -> Result<Vec<Term>, DrivingPointError> {
         key(a).total_cmp(&key(b)).then(a.at.im.high().total_cmp(&b.at.im.high()))
     });
     Ok(found)
+}
+
+/// The exponent of the power of two next to a positive number.
+#[expect(clippy::cast_possible_truncation, reason = "the exponent of a double")]
+fn exponent(number: f64) -> i32 {
+    number.log2().round().clamp(-1000.0, 1000.0) as i32
 }
 
 /// The term among `others` that is the same pole.
@@ -161,12 +173,12 @@ fn difference(terms: &[Term], others: &[Term], total: f64) -> f64 {
     worst
 }
 
-/// Which terms have no strength to within the rounding of the constants: very weak ones that
-/// change as a whole when every constant is changed in its last place, or that are rounding alone.
-/// With them the relative error of those that are weak and stay.
+/// Which terms have no residue to within the rounding of the constants: very weak ones that change as a whole when every
+/// constant is changed in its last place. With them the relative error of those that are weak and stay, by what they are
+/// in the other unit of time.
 fn hidden(
     circuit: &Circuit,
-    found: &[Term],
+    [found, turned]: [&[Term]; 2],
     time: i32,
     total: f64,
 ) -> Result<(Vec<bool>, f64), DrivingPointError> {
@@ -176,18 +188,15 @@ fn hidden(
     if doubtful.is_empty() {
         return Ok((hidden, 0.0));
     }
-    let turned = run(&circuit.reversed(), time)?;
     for pattern in [11, 12] {
         let others = run(&circuit.rounded(pattern), time)?;
         for &at in &doubtful {
-            hidden[at] |= [&others, &turned].into_iter().any(|others| {
-                let other = counterpart(&found[at], others);
-                other.is_none_or(|other| residue_difference(&found[at], other) > 0.5)
-            });
+            let other = counterpart(&found[at], &others);
+            hidden[at] |= other.is_none_or(|other| residue_difference(&found[at], other) > 0.5);
         }
     }
     let seen = doubtful.into_iter().filter(|&at| !hidden[at]);
-    let faint = seen.filter_map(|at| Some((at, counterpart(&found[at], &turned)?)));
+    let faint = seen.filter_map(|at| Some((at, counterpart(&found[at], turned)?)));
     let error = faint.map(|(at, other)| residue_difference(&found[at], other)).fold(0.0, f64::max);
     Ok((hidden, error))
 }
