@@ -6,9 +6,9 @@
 //! and `DASHPOT_SEED` ask for other scenes, `DASHPOT_METHODS` for some methods only, `DASHPOT_SCENE` prints one.
 
 mod accuracy;
+mod chosen;
 mod linear;
 mod nonlinear;
-mod plain;
 mod scenes;
 mod switching;
 mod tally;
@@ -115,9 +115,9 @@ fn full() {
     }
     let scenes = wanted("DASHPOT_SCENES").unwrap_or(ALL);
     let tallies = calibrate(seed, scenes);
-    let plain = plain::judged(seed, scenes);
-    let tables = tallies.tables(&METHODS, &plain);
-    println!("{tables}\n{}\n{}", tallies.remarks().join("\n"), plain.remarks.join("\n"));
+    let chosen = chosen::judged(seed, scenes);
+    let tables = tallies.tables(&METHODS, &chosen);
+    println!("{tables}\n{}\n{}", tallies.remarks().join("\n"), chosen.remarks.join("\n"));
     if std::env::var_os("UPDATE_DOCS").is_some() && (seed, scenes) == (SEED, ALL) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE);
         let page = fs::read_to_string(&path).unwrap();
@@ -130,7 +130,7 @@ fn full() {
         assert!(own.coverage() >= COVERAGE, "{method}: {}", own.coverage());
         assert!(own.ratio(0.5) <= WIDEST, "{method}: {} errors", own.ratio(0.5));
     }
-    assert!(plain.coverage() >= COVERAGE, "plain impacts: {}", plain.coverage());
+    assert!(chosen.coverage() >= COVERAGE, "auto: {}", chosen.coverage());
 }
 
 #[test]

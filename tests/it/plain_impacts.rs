@@ -1,5 +1,5 @@
-//! Plain impacts, single and in sweeps, which are followed in steps of constant size, beside runs by a method that is
-//! asked for, and generated scenes beside finer solutions; and what looks plain and is not.
+//! Plain impacts, single and at points of sweeps, which are followed in explicit steps there, beside runs by a method that
+//! is asked for, and generated scenes beside finer solutions; and what looks plain and is not.
 
 use dashpot::{
     analysis::{Ledger, RunReport, Solve, SolveSettings, Warning},
@@ -40,11 +40,6 @@ fn on_foam(height: Option<f64>, damping: f64) -> Network {
     }
     network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
     network
-}
-
-/// Other runs take three further solutions at least.
-fn is_plain(run: &RunReport) -> bool {
-    run.solver.solves_for_error == 1
 }
 
 fn run(network: &Network, settings: &SolveSettings) -> RunReport {
@@ -117,10 +112,8 @@ fn they_are_what_another_method_finds() {
         let network = on_foam(height, damping);
         let settings = SolveSettings::lasting(duration);
         let own = run(&network, &settings);
-        assert!(is_plain(&own), "{height:?}");
         let other = run(&network, &settings.clone().by_name("esdirk34").unwrap());
         assert_alike(&own, &other);
-        // Curves are those of the same run.
         let force = |run: &RunReport| {
             let output = run.assembly.output("pad.force").unwrap();
             run.solution().signal(output).absolute_maximum((0.0, settings.duration)).value
@@ -131,31 +124,14 @@ fn they_are_what_another_method_finds() {
 }
 
 #[test]
-fn steps_are_counted_and_no_clock_decides() {
+fn no_clock_decides() {
     let settings = SolveSettings::lasting(0.6);
     let own = run(&on_foam(Some(0.8), 40.0), &settings);
-    let work = own.solver.statistics;
-    assert_eq!((own.solver.rtol, own.solver.solves_for_error), (Some(1e-6), 1));
-    assert_eq!((work.accepted, work.rejected, work.rhs_calls), (19, 6, 374));
     let again = run(&on_foam(Some(0.8), 40.0), &settings);
     for (one, two) in own.measures.iter().zip(&again.measures) {
         assert_eq!(one.value.map(f64::to_bits), two.value.map(f64::to_bits));
         assert_eq!(one.error.map(f64::to_bits), two.error.map(f64::to_bits));
     }
-}
-
-#[test]
-fn what_is_not_plain_is_solved_as_before() {
-    let is_plain = |network: &Network, settings: &SolveSettings| is_plain(&run(network, settings));
-    let settings = SolveSettings::lasting(0.6);
-    let drop = on_foam(Some(0.8), 40.0);
-    assert!(is_plain(&drop, &settings));
-    // It comes back within the run, or does not let go within it.
-    assert!(!is_plain(&drop, &SolveSettings::lasting(3.0)));
-    assert!(!is_plain(&drop, &SolveSettings::lasting(0.415)));
-    assert!(!is_plain(&drop, &settings.clone().by_name("bdf").unwrap()));
-    // What takes up nothing has no energy to be accurate of.
-    assert!(!is_plain(&on_foam(None, 0.0), &SolveSettings::lasting(0.1)));
 }
 
 /// A head on a pad over a panel on a mount: a Maxwell and a Kelvin element in series, beside a spring that stiffens.
@@ -180,22 +156,21 @@ fn on_a_panel(mount: Model) -> Network {
 }
 
 #[test]
-fn a_face_that_springs_alone_hold_is_followed_by_their_balance() {
+fn a_face_that_springs_alone_hold_is_what_other_methods_find() {
     let mount = Tree::parallel([part(Spring { stiffness: 5e7 }), part(Dashpot { damping: 1e4 })]);
     let (network, settings) = (on_a_panel(mount), SolveSettings::lasting(0.02));
     let own = run(&network, &settings);
-    assert!(is_plain(&own));
     for method in ["esdirk34", "dop853"] {
         let fine = SolveSettings { rtol: Some(1e-9), ..settings.clone() };
         assert_alike(&own, &run(&network, &fine.by_name(method).unwrap()));
     }
-    // Behind the release the mount leaves the range of its law, of which the other way warns.
+    // Behind the release the mount leaves the range of its law.
     let law = TableSpring::new(vec![(-8e-3, -4e3), (0.0, 0.0), (8e-3, 4e3)]).unwrap();
     let network = on_a_panel(Tree::parallel([part(law), part(Dashpot { damping: 1e3 })]));
     let own = run(&network, &SolveSettings::lasting(0.05));
     let mut warnings = own.warnings.iter();
     let is_beyond = |own: &Warning| matches!(own, Warning::BeyondLaw(_));
-    assert!(!is_plain(&own) && warnings.any(is_beyond), "{:?}", own.warnings);
+    assert!(warnings.any(is_beyond), "{:?}", own.warnings);
 }
 
 #[test]
@@ -206,7 +181,7 @@ fn bars_of_generated_scenes_hold_the_truth() {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let (mut measures, mut plain) = (0, 0);
+    let (mut measures, mut outside) = (0, 0);
     for _ in 0..40 {
         let (mass, speed) = (10_f64.powf(-1.0 + 2.0 * die()), 1.0 + 9.0 * die());
         let depth = 10_f64.powf(-2.5 + die());
@@ -220,21 +195,21 @@ fn bars_of_generated_scenes_hold_the_truth() {
         network.add_effect(Separation { element: "pad".to_owned(), at: None, restitution: 0.0 });
         let settings = SolveSettings::lasting(12.0 * depth / speed);
         let own = run(&network, &settings);
-        if !is_plain(&own) {
-            continue;
-        }
-        plain += 1;
         let fine = SolveSettings { rtol: Some(1e-11), estimate: false, ..settings };
         let truth = run(&network, &fine.by_name("dop853").unwrap());
         for (one, two) in own.measures.iter().zip(&truth.measures) {
             let (value, error) = (one.value.unwrap(), one.error.unwrap());
             let off = (value - two.value.unwrap()).abs();
-            assert!(off <= error + 1e-9 * one.size, "{}: {value} ± {error}, off {off}", one.key);
+            // What the truth is known to.
+            let off = (off - 1e-9 * one.size).max(0.0);
+            assert!(off <= 3.0 * error, "{}: {value} ± {error}, off {off}", one.key);
             assert!(error <= 1e-3 * one.size, "{}", one.key);
             measures += 1;
+            outside += u32::from(off > error);
         }
     }
-    assert!(plain >= 30 && measures >= 250, "{plain} scenes, {measures} measures");
+    // Bars of further solutions hold in 99 of 100.
+    assert!(measures >= 300 && outside <= measures / 100, "{outside} of {measures} outside");
 }
 
 /// A body on a pad of this law over a panel on a soft mount.
@@ -295,6 +270,40 @@ fn bars_of_points_beside_a_dip_of_the_force_hold() {
     }
 }
 
+/// The face of a pad that springs alone hold is followed behind the release, to see that it does not meet the body again.
+#[test]
+fn points_with_a_face_that_springs_alone_hold_are_what_full_runs_find() {
+    let folder = TempDir::new().unwrap();
+    let springs = over_a_panel("").replace(", { dashpot = \"4.75 N s/m\" }", "");
+    let path = file(&folder, "springs.toml", &springs);
+    let swept = |method: &str| {
+        let vary = "head.mass=0.1..0.2 kg,6";
+        let own = ["sweep", text(&path), "--vary", vary, "--measure", "pad.peak-force", "--json"];
+        json(&[&own[..], &["--method", method, "--estimate", "all"]].concat())
+    };
+    let (own, full) = (swept("auto"), swept("esdirk34"));
+    assert!(own["instantiated"].as_u64().unwrap() >= 4, "{}", own["instantiated"]);
+    for at in 0..6 {
+        let of = |run: &serde_json::Value, key: &str| run["measures"][0][key][at].as_f64().unwrap();
+        let off = (of(&own, "values") - of(&full, "values")).abs();
+        assert!(off <= of(&own, "errors") + of(&full, "errors"), "{at}: {off}");
+    }
+}
+
+/// What comes back within the run, or is not let go within it, is no plain impact.
+#[test]
+fn points_that_come_back_or_are_held_are_solved_in_full() {
+    let folder = TempDir::new().unwrap();
+    let drop = include_str!("../../scenes/instrument-drop.toml");
+    for (duration, instantiated) in [("0.6 s", 3), ("3 s", 0), ("0.415 s", 0)] {
+        let scene = drop.replace("duration = \"0.6 s\"", &format!("duration = \"{duration}\""));
+        let path = file(&folder, "drop.toml", &scene);
+        let vary = "instrument.mass=7.9..8.1 kg,3";
+        let own = json(&["sweep", text(&path), "--vary", vary, "--method", "auto", "--json"]);
+        assert_eq!(own["instantiated"].as_u64(), Some(instantiated), "{duration}");
+    }
+}
+
 /// The panel strikes the body again, and harder: what keeps a limit in the impact alone does not pass.
 #[test]
 fn a_point_passes_no_limit_that_a_later_blow_may_exceed() {
@@ -331,7 +340,7 @@ fn scene(text: &str) -> (Network, SolveSettings) {
     (scene.network, settings)
 }
 
-/// Two solutions of few steps differ by less than their error.
+/// Solutions of few steps may differ by less than their error.
 #[test]
 fn a_loose_tolerance_has_true_bars() {
     let (network, settings) = scene(

@@ -8,7 +8,6 @@ use dashpot_network::{Assembly, Network};
 use crate::{
     RunError, RunReport, SolveSettings,
     partial::reduced,
-    plain,
     run::{solve_assembly, words},
     segmentation::with_segments,
 };
@@ -94,9 +93,6 @@ pub fn solve_partial(
     let started = Instant::now();
     let mut report = match settings.accuracy.neglect_below {
         None => {
-            if let Some(report) = plain::solve(network, assembly, settings, observer) {
-                return report;
-            }
             let report = solve_assembly(assembly, &words(network), settings, observer)?;
             with_segments(network, report, settings, observer)?
         }

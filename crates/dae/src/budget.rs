@@ -90,17 +90,22 @@ impl Budget {
         }
     }
 
+    /// The work of a step of so many unknowns.
+    pub fn of_step(unknowns: usize) -> u64 {
+        OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64
+    }
+
     /// Counts a step of so many unknowns, or a panel of so many modes.
     pub(crate) fn charge_step(&self, unknowns: usize) -> bool {
-        self.charge(OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64)
+        self.charge(Self::of_step(unknowns))
     }
 
     /// Counts what steps of so many unknowns took besides themselves.
     pub(crate) fn charge_besides(&self, work: Besides, unknowns: usize) {
         let size = unknowns.min(MOST_UNKNOWNS);
-        let solution = OVERHEAD + size as u64;
+        let solution = Self::of_step(unknowns);
         let factorization = OVERHEAD + (size * (4 + size.min(DENSE)) / 4) as u64;
-        let rejected = work.rejected as u64 * (OVERHEAD + size as u64);
+        let rejected = work.rejected as u64 * solution;
         let solved = work.solutions as u64 * solution;
         self.charge(rejected + solved + work.factorizations as u64 * factorization);
     }

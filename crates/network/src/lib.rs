@@ -29,7 +29,7 @@ pub mod waveforms;
 pub use assembly::Assembly;
 pub use compile::{
     HeldTable, Unsaid,
-    parametric::{CurveRow, Instance, ParametricSystem, PartRow},
+    parametric::{CurveRow, Instance, ParametricSystem},
     phased::{IdleSlider, PhasedNetwork, PhasedPart},
 };
 pub use elements::{Element, phases};

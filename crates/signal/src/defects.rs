@@ -116,6 +116,9 @@ pub enum Defect {
         ))
     )]
     GainsEnergy { restitution: Option<f64> },
+    /// A record beside a model that goes to the other side.
+    #[error("goes to the other side than the model: turn the sign of its column")]
+    Opposed,
     /// An axis beside others that went through another filter class, so that they have no resultant.
     #[error(
         "went through another filter class than other axes of its location, and is no part of their resultant"
@@ -154,6 +157,7 @@ impl Defect {
             Self::OddPeak { .. } => "odd-peak",
             Self::OddLength { .. } => "odd-length",
             Self::GainsEnergy { .. } => "gains-energy",
+            Self::Opposed => "opposed",
             Self::OtherFilter => "other-filter",
             Self::AxisTwice => "axis-twice",
             Self::AxesApart => "axes-apart",

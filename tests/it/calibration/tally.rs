@@ -132,8 +132,8 @@ impl Tallies {
         own.fold(Tally::default(), Tally::with)
     }
 
-    /// All of it, with single runs of `plain` impacts, as two tables in Markdown.
-    pub(super) fn tables(&self, methods: &[&str], plain: &Tally) -> String {
+    /// All of it, with what `auto` has `chosen`, as two tables in Markdown.
+    pub(super) fn tables(&self, methods: &[&str], chosen: &Tally) -> String {
         let mut text = String::from(
             "| method | scenes | judged | inside | measures inside | median | 90 % | not reached | \
              failed | too long | truth unknown | time |\n\
@@ -144,7 +144,7 @@ impl Tallies {
                 text += &self.of(method, is_wanted).row(method, name);
             }
         }
-        text += &plain.row("auto", "plain impacts");
+        text += &chosen.row("auto", "not linear, or switching");
         let heads: Vec<String> = methods.iter().map(|method| format!(" `{method}` |")).collect();
         let heads = heads.concat();
         let _ = write!(text, "\n| scenes |{heads}\n|---|{}\n", "---|".repeat(methods.len()));

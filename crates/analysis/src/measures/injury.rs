@@ -8,8 +8,9 @@ use dashpot_network::{parameters, parameters::WindowWish};
 use super::{
     Measure, MeasureKind, MeasureTraits, Reading, STANDARD_GRAVITY, WINDOW,
     hic_search::{RESOLUTION, optimum, optimum_of_magnitude},
+    powers::raised,
 };
-use crate::{Note, Solution, VelocityJump, plain::powers::raised};
+use crate::{Note, Solution, VelocityJump};
 
 parameters! {
     /// Gadd's severity index, `SI = ∫ (|a|/g0)^n dt` \[s\], of what an accelerometer on a body reads.

@@ -16,6 +16,7 @@ macro_rules! windowed {
 
 pub(crate) mod exceedance;
 pub mod hic_search;
+pub(crate) mod powers;
 pub(crate) mod selection;
 
 mod contact;

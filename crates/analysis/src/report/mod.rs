@@ -1,7 +1,6 @@
 //! The report of a run, and how far two of them are apart.
 
 pub(crate) mod compression;
-pub(crate) mod curves;
 mod deepest;
 pub(crate) mod event;
 pub(crate) mod excerpt;
@@ -15,7 +14,7 @@ pub(crate) mod zeros;
 
 use std::{collections::HashMap, sync::Arc, time::Duration};
 
-use dashpot_dae::{Extremum, Statistics};
+use dashpot_dae::{Extremum, Statistics, Trajectory};
 use dashpot_network::{
     Assembly, NodeOutputs,
     parameters::{Value, WindowWish},
@@ -23,8 +22,8 @@ use dashpot_network::{
 use serde::Serialize;
 
 use crate::{
-    Curves, EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport,
-    Segmentation, Solution, Warning,
+    EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport, Segmentation,
+    Solution, Warning,
 };
 
 /// Error in parts of a value whose first digit is just known.
@@ -63,8 +62,8 @@ pub struct RunReport {
     pub scatter: Option<Box<ScatterReport>>,
     /// The equations.
     pub assembly: Arc<Assembly>,
-    /// The solution that is reported, the finest one; of a plain impact it is made when it is looked at.
-    pub trajectory: Curves,
+    /// The solution that is reported, the finest one.
+    pub trajectory: Trajectory,
 }
 
 /// How a run was solved.
@@ -256,9 +255,6 @@ impl RunReport {
         if self.assembly.connections.len() > MOST_ELEMENTS {
             return None;
         }
-        if let Some(known) = self.largest_struck() {
-            return Some(known);
-        }
         let solution = self.solution();
         let window = (0.0, solution.end());
         let connections = self.assembly.connections.iter().enumerate();
@@ -271,21 +267,6 @@ impl RunReport {
             Some((connection.name.as_str(), peak))
         });
         forces.max_by(|one, other| one.1.value.total_cmp(&other.1.value))
-    }
-
-    /// The same where it is known without curves: what strikes touches one element, whose face has no mass, and whatever
-    /// else has a force is the contact or a stop that is not met.
-    fn largest_struck(&self) -> Option<(&str, Extremum)> {
-        let struck = self.trajectory.to_come()?;
-        let pad = self.assembly.pad(struck.element)?;
-        let own = [Some(struck.element), pad.contact, pad.stop];
-        let others = self.assembly.connections.iter().enumerate();
-        let mut others =
-            others.filter(|(at, other)| other.force.is_some() && !own.contains(&Some(*at)));
-        let masses = self.assembly.nodes.iter().filter(|node| node.mass > 0.0).count();
-        let is_alone = others.next().is_none() && masses == 1;
-        let name = self.assembly.connections[struck.element].name.as_str();
-        is_alone.then_some((name, struck.strongest))
     }
 
     /// The largest relative error of any measure, where errors are known.

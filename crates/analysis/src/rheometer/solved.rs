@@ -52,7 +52,7 @@ pub(super) fn solve(
     };
     let report = solve_assembly(&assembly, &[], &settings, &mut Silent)?;
     let (method, is_exact) = (report.solver.method, report.solver.rtol.is_none());
-    Ok(Solved { method, is_exact, assembly, trajectory: report.trajectory.into_trajectory() })
+    Ok(Solved { method, is_exact, assembly, trajectory: report.trajectory })
 }
 
 /// The outputs of a rig over runs to `reach`, with their errors and the method that was used.

@@ -15,11 +15,16 @@ use crate::{
 /// Work of a further method in parts of what has been done before it, where there is a solution already
 /// that is not as good as is wanted.
 const FURTHER: u64 = 4;
-/// Work of a method with steps where there are more oscillations than `exact` follows: enough where they are
-/// not excited.
+/// Work of a method with steps where there are more oscillations than `exact` follows, or than its budget is enough for:
+/// enough where they are not excited.
 pub(crate) const UNDEFINED: u64 = 2_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
+/// Where the budget of the first method is spent before this part of the run, the others show with little whether they get
+/// through.
+const BEGUN: f64 = 0.01;
+/// Lifetimes after which an oscillation takes no steps any more.
+const DECAYED: f64 = 10.0;
 /// Such work that is always granted: some tenths of a second.
 const ALWAYS: u64 = 20_000_000;
 
@@ -47,7 +52,15 @@ pub(crate) fn first_that_solves(
     let mut short: Vec<Arc<dyn Method>> = Vec::new();
     loop {
         let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
-        let granted = if first.is_some() { AFTER_ANOTHER.max(run.budget.done()) } else { u64::MAX };
+        let granted = match &first {
+            None => u64::MAX,
+            Some(RunError::Solve(SolveError::BudgetSpent { time, .. }))
+                if *time < BEGUN * run.t_end =>
+            {
+                ALWAYS
+            }
+            Some(_) => AFTER_ANOTHER.max(run.budget.done()),
+        };
         let share = run.budget.part(share.min(granted).min(most));
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
@@ -130,6 +143,7 @@ pub(crate) fn improved(
     let is_explicit = found.method.name() == methods::Dop853.name();
     let is_tried = |other: &Arc<dyn Method>| is_explicit && other.name() == methods::Bdf.name();
     let others = others.into_iter().rev().filter(|other| other.name() != last_resort);
+    let mut forecast = None;
     for other in others.filter(|other| !is_tried(other)) {
         let before = Task { method: found.method.as_ref(), ..*task };
         let is_stuck = found.method.is_exact() || found.outcome.obstacle.is_some();
@@ -138,7 +152,13 @@ pub(crate) fn improved(
         }
         let is_known = before.knows(&found.outcome);
         let least = if is_known { ALWAYS } else { AFTER_ANOTHER };
-        let budget = run.budget.part(least.max(FURTHER * run.budget.done()));
+        let granted = least.max(FURTHER * run.budget.done());
+        let is_exact = found.method.is_exact();
+        let forecast = *forecast.get_or_insert_with(|| {
+            if is_exact { forecast_of(task, run, &found.outcome) } else { 0.0 }
+        });
+        let is_enough = forecast <= granted as f64;
+        let budget = run.budget.part(if is_enough { granted } else { UNDEFINED });
         let own = Task { method: other.as_ref(), ..*task };
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
         let is_better =
@@ -156,6 +176,18 @@ pub(crate) fn improved(
         }
     }
     found
+}
+
+/// The least work of a method with steps that follows the fastest oscillation of a run that `exact` has solved to the
+/// accuracy wanted, if it is excited anew at each switching, or 0 where that is not known: one of order 5, whose phase is
+/// off by `(ω h)⁵` in each radian.
+fn forecast_of(task: &Task<'_>, run: &Run, exact: &Outcome) -> f64 {
+    let (system, trajectory) = (&task.assembly.system, &exact.solved.trajectory);
+    let times = 1 + trajectory.switches.len();
+    let part = Run { t_end: trajectory.t_end, ..run.clone() };
+    let radians = methods::Exact::radians(system, &part, DECAYED * times as f64).unwrap_or(0.0);
+    let in_each = (radians / task.settings.accuracy.strictest()).powf(0.2);
+    Budget::of_step(system.len()) as f64 * radians * in_each
 }
 
 /// The methods that `auto` turns to where this one fails, the last one first.

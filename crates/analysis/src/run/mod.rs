@@ -2,8 +2,8 @@
 
 pub(crate) mod attempts;
 
-pub(crate) mod events;
-pub(crate) mod outcome;
+mod events;
+mod outcome;
 mod preloads;
 mod warnings;
 
@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
-pub(crate) const SINGLE: f64 = 1e-6;
+const SINGLE: f64 = 1e-6;
 
 /// Integrates a network that is compiled already, and reports; otherwise as [`Solve`](crate::Solve). `effects`
 /// are the words of those that are on.

@@ -107,7 +107,7 @@ pub(super) fn report(
         scatter: None,
         only: Vec::new(),
         assembly: Arc::clone(assembly),
-        trajectory: outcome.solved.trajectory.into(),
+        trajectory: outcome.solved.trajectory,
     })
 }
 

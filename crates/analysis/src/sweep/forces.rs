@@ -9,8 +9,13 @@ use dashpot_numerics::{
     small::{apply, dot},
 };
 
-use super::{ScenePoint, products::Products, scene_point::ScenePoint as Posed, sums::Recorder};
-use crate::plain::{MOST_STATES, stepped::Stepped};
+use super::{
+    ScenePoint,
+    plain::{MOST_STATES, stepped::Stepped},
+    products::Products,
+    scene_point::ScenePoint as Posed,
+    sums::Recorder,
+};
 
 /// A step of a linear scene in units of the shortest time of its system; see the panels of [`Recorder`].
 const STEP: f64 = 3.0;

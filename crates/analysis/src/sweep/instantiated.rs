@@ -4,17 +4,15 @@ use dashpot_network::{ConnectionOutputs, ParametricSystem};
 
 use super::{
     Column, Estimates, Grid, Pose, ScenePoint as Scene, SweepOptions,
-    stamper::{Sized, Stamper},
-    stopped,
-    table::Table,
-};
-use crate::{
-    measures::selection::select,
     plain::{
         MOST_STATES,
         shown::{Shown, Wanted, shown_by},
     },
+    stamper::{Sized, Stamper},
+    stopped,
+    table::Table,
 };
+use crate::measures::selection::select;
 
 /// How the points of a sweep are solved by instantiating.
 #[derive(Debug)]

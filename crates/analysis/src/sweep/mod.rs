@@ -18,6 +18,7 @@ mod forces;
 mod full;
 mod instantiated;
 mod parallel;
+mod plain;
 mod products;
 mod propagate;
 mod report;

@@ -16,10 +16,11 @@ use dashpot_numerics::{
 
 use super::{
     bracket::{Flank, Step},
+    plain::shown::Wanted,
     scene_point::{Figure, Impact, ScenePoint},
     sums::{Integrals, Recorder},
 };
-use crate::{measures::NO_APPROACH, plain::shown::Wanted};
+use crate::measures::NO_APPROACH;
 
 /// A step is so long, in units of the shortest time of the system, where only peaks are looked for …
 const COARSE: f64 = 3.0;

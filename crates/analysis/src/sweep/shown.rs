@@ -2,6 +2,10 @@
 
 use super::{
     instantiated::Plan,
+    plain::{
+        shown::{Scales, Shown},
+        stepped::Course,
+    },
     report::Notice,
     scene_point::{Figure, Impact},
     table::Besides,
@@ -11,10 +15,6 @@ use crate::{
     measures::{
         STANDARD_GRAVITY,
         hic_search::{optimum, optimum_of_hump},
-    },
-    plain::{
-        shown::{Scales, Shown},
-        stepped::Course,
     },
 };
 

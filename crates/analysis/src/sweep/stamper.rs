@@ -7,18 +7,16 @@ use dashpot_network::Instance;
 use super::{
     Estimates, Row,
     instantiated::Plan,
+    plain::{
+        aftermath::{Forms, is_left},
+        bars::{self, TOLERANCES, with_bars},
+        stepped::{Course, Stepped},
+    },
     report::Notice,
     scene_point::{Figure, ScenePoint},
     table::Besides,
 };
-use crate::{
-    plain::{
-        aftermath::{self, Forms},
-        bars::{self, TOLERANCES, with_bars},
-        stepped::{Course, Stepped},
-    },
-    report::compression::is_as_thick,
-};
+use crate::report::compression::is_as_thick;
 
 /// A value of a linear scene that is less certain than this part of itself is left to the full solution.
 const LOOSEST: f64 = 1e-6;
@@ -232,7 +230,7 @@ impl<const N: usize> Sized<'_, N> {
         let parts = plan.released.as_ref().is_none_or(|behind| {
             let forms = Forms { before: (&plan.parametric, instance), behind, numbers };
             let left = plan.end(numbers) - course.release;
-            aftermath::follow(forms, course, (left, rtol)).is_some()
+            is_left(forms, course, (left, rtol))
         });
         parts && !Besides::of(numbers).are_stopped(self.depth(course))
     }

@@ -7,11 +7,11 @@ use dashpot_numerics::{
     small::{Square, apply, apply_left, dot},
 };
 
-use super::scene_point::{Figure, Impact, ScenePoint};
-use crate::plain::{
-    powers::{ENDS, raised},
-    shown::Wanted,
+use super::{
+    plain::shown::Wanted,
+    scene_point::{Figure, Impact, ScenePoint},
 };
+use crate::measures::powers::{ENDS, raised};
 
 /// Terms of the series of a force within a step.
 const TERMS: usize = 24;

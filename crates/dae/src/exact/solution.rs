@@ -200,6 +200,13 @@ impl Solution {
         moving.map(|block| radians(block, end, lifetimes)).sum()
     }
 
+    /// The same of the one mode that oscillates most, whether it moves or not.
+    pub(crate) fn most_radians(&self, end: f64, lifetimes: f64) -> f64 {
+        let blocks = self.modal().form.modes.blocks.iter();
+        let modes = blocks.flat_map(|block| (0..block.len()).map(|at| block.matrix[(at, at)]));
+        modes.map(|rate| radians_of(rate, end, lifetimes)).fold(0.0, f64::max)
+    }
+
     /// The most by which rounding of the entries of `Ā` may change a mode until `end`, dimensionless, or until
     /// it has decayed.
     pub(crate) fn blur(&self, end: f64) -> f64 {
@@ -374,12 +381,13 @@ impl Dense for Solution {
 
 /// The radians that the modes of a block pass through in a time, as long as they live.
 fn radians(block: &Block, length: f64, lifetimes: f64) -> f64 {
-    let of_mode = |i: usize| {
-        let rate = block.matrix[(i, i)];
-        let alive = if rate.re < 0.0 { lifetimes / -rate.re } else { f64::INFINITY };
-        rate.im.abs() * length.min(alive)
-    };
-    (0..block.len()).map(of_mode).sum()
+    (0..block.len()).map(|at| radians_of(block.matrix[(at, at)], length, lifetimes)).sum()
+}
+
+/// Those of one mode.
+fn radians_of(rate: Complex, length: f64, lifetimes: f64) -> f64 {
+    let alive = if rate.re < 0.0 { lifetimes / -rate.re } else { f64::INFINITY };
+    rate.im.abs() * length.min(alive)
 }
 
 /// The grid that these times are, if they are equally spaced.

@@ -96,6 +96,13 @@ impl Exact {
         (reach > 0.0 && Self::solve(system, &part).is_ok()).then_some(reach)
     }
 
+    /// The most radians \[rad\] through which an oscillation passes within a run if it goes on for so many of its
+    /// lifetimes; `None` where it does not follow the run.
+    pub fn radians(system: &System, run: &Run, lifetimes: f64) -> Option<f64> {
+        let solution = Self::solve(system, run).ok()?;
+        Some(solution.most_radians(run.t_end / system.time_scale, lifetimes))
+    }
+
     /// The system with its generators, if its structure permits.
     fn structured(system: &System, run: &Run) -> Result<Augmented, SolveError> {
         check(system, run)?;

@@ -19,6 +19,8 @@ pub struct Platen {
     pub body: String,
     /// The element that it falls on.
     pub pad: String,
+    /// Whether the scene has other elements.
+    pub has_others: bool,
     /// The area of that \[m²\].
     pub area: f64,
     /// Its thickness in the scene \[m\].
@@ -72,6 +74,7 @@ impl Platen {
         Ok(Self {
             body: node.name.clone(),
             pad: connection.name.clone(),
+            has_others: network.connections().len() > 1,
             area: connection.area.ok_or_else(no_area)?,
             thickness: connection.thickness.unwrap_or(f64::NAN),
             mass: node.mass,

@@ -118,14 +118,22 @@ pub(super) fn range(dense: &Dense, end: End, tolerated: f64) -> Option<Range> {
         End::Spring => at == SPRING,
         End::Sum => !matches!(dense.terms[at], Term::Dashpot),
     };
-    let sum = |values: &[f64]| -> f64 {
-        values.iter().enumerate().filter(|own| is_taken(own.0)).map(|own| own.1).sum()
-    };
     let taken: Vec<f64> =
         (0..dense.terms.len()).map(|at| if is_taken(at) { 1.0 } else { 0.0 }).collect();
-    let scale: f64 = nearest.values.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-    let least = UNSEEN * dense.problem.square().sqrt() / scale;
-    let is_bounded = (0..taken.len()).all(|at| !is_taken(at) || dense.problem.length(at) > least);
+    // The strengths of branches that no row sees are arbitrary, and those of a dashpot have another unit.
+    let is_elastic = |at: usize| !matches!(dense.terms[at], Term::Dashpot);
+    let length = |at: usize| dense.problem.length(at);
+    let longest = (0..taken.len()).filter(|at| is_elastic(*at)).map(length).fold(0.0, f64::max);
+    let is_seen = |at: &usize| is_elastic(*at) && length(*at) > UNSEEN * longest;
+    let size = dense.problem.square().sqrt();
+    let all: f64 = (0..taken.len()).filter(is_seen).map(|at| nearest.values[at]).sum();
+    // Not less than what one term would have to be.
+    let scale = all.max(size / longest).max(f64::MIN_POSITIVE);
+    let least = UNSEEN * size / scale;
+    let sum = |values: &[f64]| -> f64 {
+        (0..taken.len()).filter(|at| is_taken(*at) && is_seen(at)).map(|at| values[at]).sum()
+    };
+    let is_bounded = (0..taken.len()).all(|at| !is_taken(at) || length(at) > least);
     let value = sum(&nearest.values);
     let reached = |way: f64| {
         let (mut inside, mut weak, mut strong) = (nearest.clone(), -LN_PULLS, LN_PULLS);

@@ -141,17 +141,18 @@ fn what_rows_are_still_on_the_way_to_is_not_identified() {
 #[test]
 fn two_branches_lie_within_their_bands_as_often_as_is_said() {
     let solid = |t: f64| 100.0 + 150.0 * (-t / 0.1).exp() + 80.0 * (-t / 2.0).exp();
-    let (mut ranges, mut inside, mut all) = (0, 0, 0);
+    let (mut ranges, mut sums, mut inside, mut all) = (0, 0, 0, 0);
     for seed in 1..=200 {
-        let own = relaxed(solid, 60, seed);
-        ranges += u32::from(covers(own.spring, 100.0));
-        for row in &own.curves[0].rows {
+        let fit = relaxed(solid, 60, seed);
+        ranges += u32::from(covers(fit.spring, 100.0));
+        sums += u32::from(covers(fit.sum, 330.0));
+        for row in &fit.curves[0].rows {
             all += 1;
             inside += u32::from((row.model - solid(row.at)).abs() <= row.half.unwrap());
         }
     }
-    println!("spring {ranges} of 200, rows {inside} of {all}");
-    assert!(ranges >= 186, "{ranges}");
+    println!("spring {ranges} of 200, sum {sums} of 200, rows {inside} of {all}");
+    assert!(ranges >= 186 && sums >= 186, "{ranges} {sums}");
     assert!(f64::from(inside) >= 0.93 * f64::from(all), "{inside} of {all}");
 }
 

@@ -12,7 +12,7 @@ use super::{
     Band, NetworkFault, NetworkFit, NetworkSettings, Number, Other, Phase, Test,
     certainty::certainty,
     residuals::Task,
-    told::{FEWEST, is_structured},
+    told::{FEWEST, deviation, is_structured},
 };
 use crate::optimum::{Optimum, Residuals as _, least_squares, sum};
 
@@ -26,8 +26,6 @@ const FAR: f64 = 3.0;
 const LEAST: f64 = 1e-12;
 /// Rounds in which noise, and the samples between which curves jump, are found anew.
 const ROUNDS: usize = 3;
-/// The standard deviation in medians of the magnitude of normal deviates.
-const OF_MEDIAN: f64 = 1.4826;
 /// Of so many parts of a pulse samples are averaged over one, first of the wide ones.
 const WINDOWS: [usize; 2] = [3, 12];
 /// So many starts have to end at the lowest minimum; more where more than this is left of a record in parts of its
@@ -273,13 +271,6 @@ fn units(task: &Task<'_>, unknowns: &[f64], is_robust: bool) -> Vec<f64> {
         task.unit(test) * own.max(LEAST)
     };
     parts.map(unit).collect()
-}
-
-/// The standard deviation of normal deviates, by the median of their magnitudes.
-fn deviation(left: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = left.iter().map(|own| own.abs()).collect();
-    sorted.sort_by(f64::total_cmp);
-    OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 impl Task<'_> {

@@ -36,6 +36,16 @@ fn durbin_watson(left: &[f64]) -> f64 {
     if left.len() < FEWEST_FOLLOWING || square <= 0.0 { 2.0 } else { steps / square }
 }
 
+/// The standard deviation in medians of the magnitude of normal deviates.
+const OF_MEDIAN: f64 = 1.4826;
+
+/// The standard deviation of normal deviates, by the median of their magnitudes.
+pub(super) fn deviation(left: &[f64]) -> f64 {
+    let mut sorted: Vec<f64> = left.iter().map(|own| own.abs()).collect();
+    sorted.sort_by(f64::total_cmp);
+    OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
 /// Whether more is left in rows than noise of a standard deviation, or than any that is white.
 pub(super) fn is_structured(left: &[f64], noise: Option<f64>) -> bool {
     let square: f64 = left.iter().map(|own| own * own).sum();
@@ -48,13 +58,18 @@ pub(super) fn is_structured(left: &[f64], noise: Option<f64>) -> bool {
 /// A row belongs to the impact that differs from the first one by more than this part of the peak.
 const QUIET: f64 = 0.1;
 
-/// What the rows before a time, and before the record leaves its first value, read at zero where a fitted zero
-/// contradicts them; `left` is the model less the rows.
+/// When a record leaves its first value \[s\]; `None` where it never does.
+fn leaves(test: &Test) -> Option<f64> {
+    let first = test.rows.first()?.1;
+    let peak = largest(test.rows.iter().map(|row| row.1 - first)).abs();
+    Some(test.rows.iter().find(|row| (row.1 - first).abs() > QUIET * peak)?.0)
+}
+
+/// What the rows before a time read at zero where a fitted zero contradicts them; `left` is the model less the rows.
 fn other_zero(test: &Test, left: &[f64], own: Own, until: f64) -> Option<OtherZero> {
     let first = test.rows.first()?.1;
     let peak = largest(test.rows.iter().map(|row| row.1 - first)).abs();
-    let is_quiet = |row: &(f64, f64)| row.0 < until && (row.1 - first).abs() <= QUIET * peak;
-    let rows = test.rows.iter().zip(left).take_while(|row| is_quiet(row.0));
+    let rows = test.rows.iter().zip(left).take_while(|row| row.0.0 < until);
     let mut left: Vec<f64> = rows.map(|row| *row.1).collect();
     left.sort_by(f64::total_cmp);
     let (rows, median) = (left.len(), *left.get(left.len() / 2)?);
@@ -110,13 +125,15 @@ impl Task<'_> {
         Some(samples.map(|value| Some(own.gain * value)).collect())
     }
 
-    /// Until when the filtered record of a test rests \[s\]; minus infinity where it is not one of an impact.
+    /// Until when the filtered record of a test rests \[s\]: until the impact begins, and no longer than it is near its first
+    /// value, as a model that is wrong may begin later. Minus infinity where it is not one of an impact.
     fn rests_until(&self, test: usize, shift: f64) -> f64 {
         let own = &self.tests()[test];
         if own.kind != Kind::Blow {
             return f64::NEG_INFINITY;
         }
-        shift - own.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency())
+        let until = leaves(own).map_or(shift, |leaves| leaves.min(shift));
+        until - own.filter.map_or(0.0, |own| SMEARED / own.0.design_frequency())
     }
 
     /// How many rows of a test are of samples before the impact.
@@ -139,7 +156,7 @@ impl Task<'_> {
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
             let resting = &left[..self.rows_at_rest(at, unknowns)];
             let rests = self.rests_until(at, own.shift);
-            let at_rest = (resting.len() >= FEWEST).then(|| unit * mean_square(resting).sqrt());
+            let at_rest = (resting.len() >= FEWEST).then(|| unit * deviation(resting));
             let scatter = self.scatter(at, unknowns);
             let noise = unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt();
             let rms = (square / residual.len() as f64).sqrt();

@@ -1,7 +1,6 @@
-//! The receptance of a network with masses.
+//! The receptance of a network.
 
 use dashpot_numerics::DoubleDouble;
-
 use dashpot_rheology::LinearModel;
 
 use super::{Hidden, Massless, complex::Complex, terms::Term};

@@ -88,7 +88,10 @@ fn at_rest(scaled: &Circuit, force: i32) -> Option<Term> {
 
 /// The terms in physical units, with the unit of time in the middle of the poles; with them those of another unit of
 /// time and another order of the bodies, and what they differ by.
-fn settled(circuit: &Circuit, rest: &Rest) -> Result<([Vec<Term>; 2], f64, i32), DrivingPointError> {
+fn settled(
+    circuit: &Circuit,
+    rest: &Rest,
+) -> Result<([Vec<Term>; 2], f64, i32), DrivingPointError> {
     let mut time = exponent(1.0 / circuit.middle_rate());
     // Another unit of time alone would repeat many roundings: it is a power of two.
     let turned = circuit.reversed();
@@ -155,7 +158,8 @@ fn counterpart<'a>(term: &Term, others: &'a [Term]) -> Option<&'a Term> {
 /// Relative difference of the strengths of two terms.
 fn residue_difference(a: &Term, b: &Term) -> f64 {
     let change: Vec<Complex> = a.residues.iter().zip(&b.residues).map(|(a, b)| *a - *b).collect();
-    Term { residues: change, ..a.clone() }.compliance() / a.compliance()
+    let part = Term { residues: change, ..a.clone() }.compliance() / a.compliance();
+    if part.is_nan() { f64::INFINITY } else { part }
 }
 
 fn difference(terms: &[Term], others: &[Term], total: f64) -> f64 {

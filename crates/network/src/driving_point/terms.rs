@@ -9,7 +9,7 @@ use super::{
 };
 use crate::compile::bodies::Groups;
 
-/// `N(s − p)/D(s − p)`: `D` is monic of degree `strengths.len()` and `spread` has its other
+/// `N(s − p)/D(s − p)`: `D` is monic of degree `residues.len()` and `spread` has its other
 /// coefficients, the constant first; `residues` are those of `N`.
 #[derive(Debug, Clone)]
 pub(super) struct Term {

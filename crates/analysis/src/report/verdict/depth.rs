@@ -44,10 +44,6 @@ impl<'r> Found<'r> {
             let at = self.0.assembly.position(&measure.target)?;
             let connection = &self.connections()[at];
             let (thickness, window) = connection.thickness.zip(measure.window)?;
-            if let Some(struck) = self.0.trajectory.to_come().filter(|own| own.element == at) {
-                let deepest = [struck.deepest.value, struck.deepest.time];
-                return Some((measure, Compression::new(deepest, measure.error, thickness)));
-            }
             let solution = self.0.solution();
             let deformation = solution.signal(connection.deformation);
             Some((measure, Compression::of(deformation, window, thickness)))
@@ -67,8 +63,6 @@ impl<'r> Found<'r> {
     fn is_on_stop(self, element: usize) -> bool {
         let stop = self.0.assembly.pads.iter().find(|own| own.element == element);
         let stop = stop.and_then(|own| self.connections()[own.stop?].force);
-        // What is struck and followed plainly has not met any.
-        let stop = stop.filter(|_| self.0.trajectory.to_come().is_none());
         let solution = stop.is_some().then(|| self.0.solution());
         solution.zip(stop).is_some_and(|(own, force)| {
             own.keeps(force) && own.signal(force).maximum((0.0, own.end())).value > 0.0

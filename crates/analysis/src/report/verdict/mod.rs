@@ -242,9 +242,6 @@ impl<'r> Found<'r> {
 
     /// In the window of the largest force: at the contact of the padding, or where it has none on what lies behind.
     fn whole_force(self) -> Option<WholeForce<'r>> {
-        if self.0.largest_struck().is_some() {
-            return None;
-        }
         let (headline, most) = self.largest(PeakForce::KIND)?;
         let (from, to) = headline.window?;
         let window = WindowWish::Times(from, to);
@@ -386,9 +383,6 @@ impl<'r> Found<'r> {
 
     fn leaving(self, element: &str) -> Option<Leaving<'r>> {
         let speeds = self.impactors(Some(element)).into_iter().filter_map(|(at, node)| {
-            if let Some(struck) = self.0.trajectory.to_come() {
-                return Some((node, struck.leaves));
-            }
             let reading = Measure::read(&EndVelocity::default(), &self.0.solution(), at);
             Some((node, reading.value?))
         });

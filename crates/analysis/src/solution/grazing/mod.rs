@@ -105,26 +105,29 @@ pub(crate) fn undecided_ends<'a>(
     all
 }
 
-/// Parts of the height of ripples from which on the way of a force to zero is looked at.
-const DESCENT: f64 = 4.0;
+/// The way of a force to zero is looked at from so many heights of ripples on: its pace is known to an eighth then …
+const DESCENT: f64 = 8.0;
+/// … but from no more than this part of the largest force on, or from two heights.
+const HALF: f64 = 0.5;
 
 /// When impacts may end whose forces are known up to ripples of this `height`, in parts of the largest force: where a force
 /// comes within them before and the `others` do not agree that it pushes on, else before it is zero by what they are worth
-/// on its last way there, from [`DESCENT`] heights on.
+/// on its last way there; see [`DESCENT`].
 pub(crate) fn releases_in_ripples<'a>(
     finest: &Solution<'a>,
     make_others: &dyn Fn() -> Vec<Solution<'a>>,
     height: f64,
 ) -> UndecidedReleases {
     let earlier = undecided_releases(finest, make_others, height);
+    let heights = DESCENT.min(HALF / height).max(2.0);
     // From when on it only falls, and when it may be zero then.
     let descent = |force_of: ForceOf| {
         let impact = finest.impact_felt(force_of);
         let window = impact.pushing().filter(|_| impact.has_ended())?;
         let force = finest.contact_force(force_of)?;
-        let falls = force.crossings(DESCENT * height * force.bound(), window);
+        let falls = force.crossings(heights * height * force.bound(), window);
         let last = falls.iter().rfind(|own| own.rising == Some(false))?.time;
-        Some((last, window.1 - (window.1 - last) / (DESCENT - 1.0)))
+        Some((last, window.1 - (window.1 - last) / (heights - 1.0)))
     };
     let release = |force_of: ForceOf| {
         let earlier = earlier.iter().find(|own| own.0 == force_of).map(|own| own.1);

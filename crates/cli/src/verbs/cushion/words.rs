@@ -22,6 +22,7 @@ use crate::{
 /// Digits of a number that is read in passing, and of one that is an answer.
 const FEW: usize = 3;
 const DIGITS: usize = 4;
+const MANY: usize = 12;
 /// Digits of a peak, whatever its error.
 const MOST_DIGITS: usize = 5;
 /// What a whole number of units may be off by rounding, in parts of itself.
@@ -44,9 +45,23 @@ pub(super) fn length(value: f64) -> String {
 
 /// A length that is not below the value, as a thinner cushion than one that just keeps a limit does not keep it.
 pub(super) fn no_less(value: f64) -> String {
-    let unit = 10.0_f64.powf(value.log10().floor() - (DIGITS - 1) as f64);
-    let up = (value / unit * (1.0 - ROUNDING)).ceil() * unit;
-    length(if up.is_finite() { up } else { value })
+    length(towards(value, DIGITS, f64::ceil))
+}
+
+/// Stresses that keep a limit in kPa, so rounded that what is printed keeps it as well, and how many digits that takes.
+fn inside([low, high]: [f64; 2]) -> ([f64; 2], usize) {
+    let own = |digits| [towards(low, digits, f64::ceil), towards(high, digits, f64::floor)];
+    let digits = (FEW..MANY).find(|digits| own(*digits)[0] <= own(*digits)[1]).unwrap_or(MANY);
+    (own(digits), digits)
+}
+
+/// A positive value of so many significant digits.
+fn towards(value: f64, digits: usize, side: fn(f64) -> f64) -> f64 {
+    let unit = 10.0_f64.powf(value.log10().floor() - (digits - 1) as f64);
+    let units = value / unit;
+    let is_whole = (units - units.round()).abs() <= ROUNDING * units;
+    let own = if is_whole { units.round() } else { side(units) } * unit;
+    if own.is_finite() { own } else { value }
 }
 
 /// `parcel falls on cushion of 133.3 cm², whose static stress is …`.
@@ -144,8 +159,8 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
         |known: Known| curves.iter().flat_map(|own| &own.points).any(|own| own.known == known);
     let is_missing = has(Known::Unsolved);
     if let Some((own, kept)) = curves.iter().find_map(|own| Some((own, own.passing?))) {
-        let [low, high] = kept.stress;
-        let (low, high) = (in_kpa().number(low, FEW), in_kpa().text(high, FEW));
+        let ([low, high], digits) = inside(kept.stress);
+        let (low, high) = (in_kpa().number(low, digits), in_kpa().text(high, digits));
         return line("PASS", format!("{} keep it at {low} to {high}", length(own.thickness)));
     }
     let Some((own, Best { point, place, .. })) = least(curves) else {
@@ -176,10 +191,19 @@ fn of_limit(drawn: &Drawn, curves: &[Curve], limit: f64) -> Line {
     line(if is_open { "UNDECIDED" } else { "FAIL" }, text)
 }
 
+/// Where a law ends, which may be that of another element.
+fn beyond_law(drawn: &Drawn) -> &'static str {
+    if drawn.cushion.platen.has_others {
+        "until it or another element is beyond what is known of it"
+    } else {
+        "beyond the last point of its law"
+    }
+}
+
 /// How far the cushion is pressed where curves are no longer known.
 fn end(drawn: &Drawn) -> String {
     let ends = [
-        (Known::BeyondLaw, "beyond the last point of its law"),
+        (Known::BeyondLaw, beyond_law(drawn)),
         (Known::PressedThrough, "beyond its thickness"),
         (Known::Infinite, "to where its peak is infinite"),
     ];
@@ -295,8 +319,9 @@ fn of_best(Best { point, place }: &Best) -> [String; 4] {
 
 /// The stresses that keep the limit, with a mark where that of the scene is one of them.
 fn passing(Passing { stress, ends }: Passing, own: f64) -> String {
+    let (stress, digits) = inside(stress);
     let mark = if within(stress, own) { " ✓" } else { "" };
-    let [low, high] = stress.map(|own| in_kpa().number(own, FEW));
+    let [low, high] = stress.map(|own| in_kpa().number(own, digits));
     let [before, behind] = ends.map(|own| match own {
         Reach::Limit => "",
         Reach::Range => "…",
@@ -332,7 +357,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     let told = [
         (Known::OnStop, format!("meet the stop of {pad}")),
         (Known::Infinite, "have an infinite peak: masses meet, as on a rigid stop".to_owned()),
-        (Known::BeyondLaw, format!("press {pad} beyond the last point of its law")),
+        (Known::BeyondLaw, format!("press {pad} {}", beyond_law(drawn))),
         (Known::PressedThrough, format!("press {pad} by more than its thickness")),
     ];
     let told = told.into_iter().map(|(known, text)| (count(known), text));
@@ -363,7 +388,7 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
         notes.push(format!("! {pad} is pressed {} there, before the limit", end(drawn)));
     }
     let own = drawn.cushion.platen.stress();
-    if curves.iter().filter_map(|own| own.passing).any(|kept| within(kept.stress, own)) {
+    if curves.iter().filter_map(|own| own.passing).any(|kept| within(inside(kept.stress).0, own)) {
         notes.push(format!("✓ the static stress of {} in the scene", drawn.cushion.platen.body));
     }
     let rows = || curves.iter().flat_map(|own| &own.repeated);

@@ -12,7 +12,11 @@ mod tables;
 mod total;
 mod words;
 
-use std::{num::NonZero, sync::atomic::AtomicUsize, thread::available_parallelism};
+use std::{
+    num::NonZero,
+    sync::{Mutex, atomic::AtomicUsize},
+    thread::available_parallelism,
+};
 
 use clap::Args;
 use dashpot_analysis::{
@@ -39,6 +43,7 @@ use crate::{
     args::{LimitArguments, NO_SCATTER, SceneArguments, method_names, probability, refuse},
     counts::{DESIGNS, FRONT_POINTS, SCATTERED_SCENES},
     error::{CliError, Status},
+    host,
     input::Input,
     out::OutArguments,
     output::{emit, list},
@@ -182,6 +187,8 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         sample: ScatterArguments::new(arguments.scatter, arguments.seed),
         half: arguments.sample.max(2) * asked.tests.len() * asked.choices().len(),
         posed: AtomicUsize::new(0),
+        bar: Mutex::new(Some(Bar::new("design", 0.0, terminal.error.attended))),
+        watch: host::watch(),
     };
     check_posed(arguments, &posing)?;
     check_measures(&posing)?;
@@ -194,6 +201,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
         one.rank().partial_cmp(&other.rank()).unwrap_or(std::cmp::Ordering::Equal)
     });
     let front = front::found(arguments, &posing, &found)?;
+    posing.end();
     let Some(Found { choice, design: Ok(best) }) = found.first_mut() else {
         let reason = found.into_iter().find_map(|own| own.design.err()).unwrap_or_default();
         return Err(CliError::NoDesign { reason });

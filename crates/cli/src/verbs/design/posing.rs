@@ -1,6 +1,12 @@
 //! What poses the scene of a design: its text with other numbers and choices, and with scattered ones.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{
+    ops::ControlFlow,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
 
 use dashpot_analysis::{
     Limit,
@@ -15,8 +21,10 @@ use super::{
 use crate::{
     around::{Around, with_scatter},
     error::CliError,
-    host::{self, ENDED},
+    host::{ENDED, Watch},
+    numbers::counted,
     output::list,
+    progress::Bar,
     varied::{messages, point, posed},
     verbs::run::scatter::ScatterArguments,
 };
@@ -33,6 +41,10 @@ pub(super) struct Posing<'a> {
     pub(super) half: usize,
     /// … and so many have been posed.
     pub(super) posed: AtomicUsize,
+    /// Shows that, until the search is over …
+    pub(super) bar: Mutex<Option<Bar>>,
+    /// … where no host does.
+    pub(super) watch: Option<Watch>,
 }
 
 impl Posing<'_> {
@@ -55,10 +67,23 @@ impl Posing<'_> {
         scene.text(list(numbers), self.asked, choice)
     }
 
-    /// The share of the search that is thought to be done, with one more scene.
-    fn share(&self) -> f64 {
-        let posed = self.posed.fetch_add(1, Ordering::Relaxed) as f64;
-        posed / (posed + self.half as f64)
+    /// Shows how far a search may have come with one more scene. Errors: it is to end.
+    fn show(&self) -> Result<(), String> {
+        let posed = self.posed.fetch_add(1, Ordering::Relaxed);
+        let share = posed as f64 / (posed + self.half) as f64;
+        let bar = || self.bar.lock().unwrap_or_else(PoisonError::into_inner);
+        let answer = match &self.watch {
+            Some(watch) => watch(share),
+            None => bar().as_mut().map_or(ControlFlow::Continue(()), |bar| {
+                bar.show(share, || counted(posed, "scene"))
+            }),
+        };
+        if answer.is_break() { Err(ENDED.to_owned()) } else { Ok(()) }
+    }
+
+    /// The search is over.
+    pub(super) fn end(&self) {
+        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     pub(super) fn scene(&self, test: &Test) -> &TestScene {
@@ -81,11 +106,9 @@ impl Posing<'_> {
 
     /// The scene of a test with a choice, for any numbers.
     pub(super) fn pose<'s>(&'s self, choice: &'s Choice, test: &'s Test) -> Box<PoseAt<'s>> {
-        let (set, scene, watch) = (self.set_for(test), self.scene(test), host::watch());
+        let (set, scene) = (self.set_for(test), self.scene(test));
         Box::new(move |values: &[f64]| {
-            if watch.as_ref().is_some_and(|watch| watch(self.share()).is_break()) {
-                return Err(ENDED.to_owned());
-            }
+            self.show()?;
             let posed = posed(&self.text(scene, choice, values), &scene.input, &set);
             let point = posed.and_then(|own| point(own, self.method));
             let of_test = |fault| match &*test.name {

@@ -58,11 +58,12 @@ impl Numbers {
         let error = signal.error.unwrap_or(relative * model.largest().1);
         let approach = approach(curve, (first, zero), run, scene);
         let settings = Settings { approach, ..Settings::default() };
-        Some(Self {
-            measured: settings.analyse(measured).ok()?,
-            model: Settings { error, ..settings }.analyse(model).ok()?,
-            rating,
-        })
+        let product: f64 = rows.iter().zip(model.values()).map(|(row, model)| row.1 * model).sum();
+        let mut measured = settings.analyse(measured).ok()?;
+        if product < 0.0 {
+            measured.defects.push(Defect::Opposed);
+        }
+        Some(Self { measured, model: Settings { error, ..settings }.analyse(model).ok()?, rating })
     }
 
     /// What is read of both: measured, and of the model.
@@ -153,16 +154,18 @@ pub(super) fn remark(all: &[Compared<'_>]) -> Option<String> {
     }
 }
 
-/// What is impossible of what is read of a measured curve.
+/// What is impossible of what is read of a measured curve, or turned.
 fn impossible(own: &Numbers) -> impl Iterator<Item = &Defect> {
-    own.measured.defects.iter().filter(|own| matches!(own, Defect::GainsEnergy { .. }))
+    let is_meant = |own: &&Defect| matches!(own, Defect::GainsEnergy { .. } | Defect::Opposed);
+    own.measured.defects.iter().filter(is_meant)
 }
 
 /// The same in words.
 pub(super) fn impossible_words(all: &[Compared<'_>]) -> Option<String> {
     let first = all.first()?;
-    let defect = impossible(first.beside.numbers.as_ref()?).next()?;
-    Some(format!("{}: what was measured {defect}", first.curve.file))
+    let defects = list(impossible(first.beside.numbers.as_ref()?).map(ToString::to_string));
+    let all = Some(defects.join("; ")).filter(|own| !own.is_empty())?;
+    Some(format!("{}: what was measured {all}", first.curve.file))
 }
 
 /// Whether a value is zero within its error.

@@ -12,7 +12,6 @@ use crate::{
     NodeId,
     compile::{
         bodies::{Bodies, Role},
-        expand::Shape,
         scales::Scales,
         structure::Structure,
         unknowns::Places,
@@ -62,7 +61,6 @@ impl ParametricSystem {
             mass,
             force: force_parts(shape, &own.part_of, &own.all)?,
             deformation: difference(places, struck.ends)?,
-            primitives: own.part_of.len(),
             parts: own.all,
             curves: own.curves,
             numbers,
@@ -86,7 +84,6 @@ impl Parts {
     fn of(first: &FirstPhases<'_>, bodies: &Bodies, places: &Places, slots: usize) -> Option<Self> {
         let primitives = &first.expansion.primitives;
         let part_of = vec![None; primitives.len()];
-        let place = told_at(first);
         let mut own = Self { all: Vec::new(), part_of, curves: Vec::new(), numbers: 0, slots };
         for (at, primitive) in primitives.iter().enumerate() {
             let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
@@ -108,20 +105,11 @@ impl Parts {
             };
             let deformation = difference(places, ends)?;
             let number = own.numbers;
-            own.all.push(Part { ends, primitive: place[at], number, kind, deformation });
+            own.all.push(Part { ends, number, kind, deformation });
             own.numbers += numbers;
         }
         Some(own)
     }
-}
-
-/// Where each primitive stands among those that an assembly tells of, if it tells of all: connection by connection,
-/// in the order of their shapes.
-fn told_at(first: &FirstPhases<'_>) -> Vec<usize> {
-    let mut place = vec![0; first.expansion.primitives.len()];
-    let leaves = first.expansion.shapes.iter().flatten().filter_map(Shape::leaf);
-    leaves.enumerate().for_each(|(at, own)| place[own] = at);
-    place
 }
 
 /// The bodies with an unknown position, those with mass, and how many numbers there are with theirs; `None`

@@ -23,7 +23,7 @@ use self::{
     fingerprint::{Fingerprint, fingerprint},
     first_phases::FirstPhases,
 };
-pub use self::{curve::CurveRow, instance::Instance, released::PartRow};
+pub use self::{curve::CurveRow, instance::Instance};
 use super::{
     bodies::{Bodies, Role},
     scales::{Drives, Scales},
@@ -36,8 +36,6 @@ use crate::{Network, NodeId};
 #[derive(Debug, Clone)]
 struct Part {
     ends: [usize; 2],
-    /// Its place among the primitives that an assembly tells of.
-    primitive: usize,
     /// Where its constant, or the first number of its law, stands among the numbers.
     number: usize,
     kind: PartKind,
@@ -95,7 +93,6 @@ struct Weighed {
 pub struct ParametricSystem {
     fingerprint: Fingerprint,
     bodies: usize,
-    primitives: usize,
     parts: Vec<Part>,
     /// The laws that are not linear, in the order of their slots.
     curves: Vec<Curve>,
@@ -133,36 +130,23 @@ impl ParametricSystem {
     pub fn of(network: &Network, duration: f64) -> Option<Self> {
         let first = FirstPhases::of(network)?;
         let bodies = Bodies::of(&first.network, &first.expansion).ok()?;
-        Self::of_first(&first, &bodies, duration)
-    }
-
-    /// The form of a network, and its [numbers](Self::numbers).
-    pub fn with_numbers(network: &Network, duration: f64) -> Option<(Self, Vec<f64>)> {
-        let first = FirstPhases::of(network)?;
-        let bodies = Bodies::of(&first.network, &first.expansion).ok()?;
-        let own = Self::of_first(&first, &bodies, duration)?;
-        let numbers = own.numbers_of(&first, &bodies)?;
-        Some((own, numbers))
-    }
-
-    fn of_first(first: &FirstPhases<'_>, bodies: &Bodies, duration: f64) -> Option<Self> {
-        let fingerprint = fingerprint(first)?;
-        let structure = Structure::of(&first.network, &first.expansion, bodies, duration).ok()?;
+        let fingerprint = fingerprint(&first)?;
+        let structure = Structure::of(&first.network, &first.expansion, &bodies, duration).ok()?;
         if (0..structure.clusters.len()).any(|cluster| structure.is_algebraic(cluster)) {
             return None;
         }
         let mut inputs = Inputs::default();
-        let scales = Scales::of(bodies, &structure, &Drives::default(), duration, false).ok()?;
+        let scales = Scales::of(&bodies, &structure, &Drives::default(), duration, false).ok()?;
         let places = unknowns::choose(
             &first.network,
             &first.expansion,
-            bodies,
+            &bodies,
             &structure,
             &scales,
             &BTreeMap::new(),
             &mut inputs,
         );
-        Self::assembled(first, fingerprint, bodies, &structure, &scales, &places)
+        Self::assembled(&first, fingerprint, &bodies, &structure, &scales, &places)
     }
 
     /// Number of unknowns.
@@ -193,12 +177,6 @@ impl ParametricSystem {
     /// Position among the connections of the element that the impactor touches.
     pub fn element(&self) -> usize {
         self.element
-    }
-
-    /// How many primitives there are. An [`Assembly`](crate::Assembly) that tells of as many has them in the order of
-    /// [`PartRow::primitive`].
-    pub fn primitives(&self) -> usize {
-        self.primitives
     }
 
     /// The impactor.

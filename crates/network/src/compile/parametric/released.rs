@@ -1,19 +1,8 @@
-//! What a form does once what strikes it has been let go, and the rows of its parts.
+//! What a form does once what strikes it has been let go.
 
 use dashpot_numerics::small::dot;
 
 use super::{Curve, CurveRow, Instance, ParametricSystem, PartKind, reading::order};
-
-/// A part of a form over the unknowns and slots of one network.
-#[derive(Debug, Clone)]
-pub struct PartRow<const N: usize> {
-    /// Its place among the primitives of an assembly that tells of [all](ParametricSystem::primitives).
-    pub primitive: usize,
-    /// Its deformation \[m\].
-    pub deformation: [f64; N],
-    /// The rate of that \[m/s\].
-    pub rate: [f64; N],
-}
 
 impl ParametricSystem {
     /// The same form with the same unknowns once what strikes has been let go: a face without mass is left,
@@ -52,8 +41,11 @@ impl ParametricSystem {
 
     /// The kinetic energy \[J\] of its masses at the start.
     pub fn energy_at_start<const N: usize>(&self, numbers: &[f64], instance: &Instance<N>) -> f64 {
-        let all = self.masses_and_speeds(numbers, instance);
-        all.iter().map(|(mass, row)| 0.5 * mass * dot(row, &instance.start).powi(2)).sum()
+        let energy = |weighed: &super::Weighed| {
+            let speed = dot(&self.speed_of(weighed.body, instance), &instance.start);
+            0.5 * numbers[weighed.numbers[0]] * speed * speed
+        };
+        self.weighed.iter().map(energy).sum()
     }
 
     /// What all springs and laws store \[J\] at most, as forces rise with deformations.
@@ -76,30 +68,9 @@ impl ParametricSystem {
         springs.map(of_spring).chain(laws).sum()
     }
 
-    /// The rows of its parts in an instance that is [filled](Self::fill).
-    pub fn parts<const N: usize>(&self, instance: &Instance<N>) -> Vec<PartRow<N>> {
-        let row = |part: &super::Part| {
-            let [a, b] = part.ends.map(|body| self.speed_of(body, instance));
-            let rate = std::array::from_fn(|at| a[at] - b[at]);
-            let deformation = self.in_metres(&part.deformation);
-            PartRow { primitive: part.primitive, deformation, rate }
-        };
-        self.parts.iter().map(row).collect()
-    }
-
     /// The speed \[m/s\] of what is struck at its face, over the unknowns and slots.
     pub fn speed_of_face<const N: usize>(&self, instance: &Instance<N>) -> [f64; N] {
         self.speed_of(self.face, instance)
-    }
-
-    /// The mass \[kg\] of each body that has any, and its speed \[m/s\] over the unknowns and slots.
-    pub fn masses_and_speeds<const N: usize>(
-        &self,
-        numbers: &[f64],
-        instance: &Instance<N>,
-    ) -> Vec<(f64, [f64; N])> {
-        let own = self.weighed.iter();
-        own.map(|own| (numbers[own.numbers[0]], self.speed_of(own.body, instance))).collect()
     }
 
     fn speed_of<const N: usize>(&self, body: usize, instance: &Instance<N>) -> [f64; N] {

@@ -1,9 +1,9 @@
 //! What becomes of a pad once it has let go what struck it.
 
-use dashpot_network::{Instance, ParametricSystem, PartRow};
+use dashpot_network::{Instance, ParametricSystem};
 use dashpot_numerics::small::dot;
 
-use super::stepped::{Course, Nodes, Stepped, Track};
+use super::stepped::{Course, Nodes, Stepped};
 
 /// What is left to dissipate, in parts of the energy of the impact and of the tolerance, is of no account.
 const LITTLE: f64 = 1e-3;
@@ -14,36 +14,17 @@ const PLACES: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 /// It may seem to be in the pad by so much of that.
 const ROUNDING: f64 = 1e-6;
 
-/// The pad from the release on, and what has left it.
-#[derive(Debug)]
-pub(crate) struct Aftermath<const N: usize> {
-    /// The unknowns at the release.
-    pub(super) from: [f64; N],
-    /// What has left the pad.
-    pub(super) flight: Flight,
-    /// Up to the end of the run, or until nothing moves any more.
-    pub(super) track: Track<N>,
-    pub(super) parts: Vec<PartRow<N>>,
-    /// Masses \[kg\] that stay, and their speeds.
-    pub(super) masses: Vec<(f64, [f64; N])>,
-}
-
 /// What leaves the pad: its speed \[m/s\], and what pulls it back \[m/s²\].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flight {
-    pub(super) speed: f64,
-    pub(super) pull: f64,
+struct Flight {
+    speed: f64,
+    pull: f64,
 }
 
 impl Flight {
     /// How far it has come \[m\] after so many seconds.
     fn way(self, time: f64) -> f64 {
         (self.speed + 0.5 * self.pull * time) * time
-    }
-
-    /// Its speed then \[m/s\].
-    pub(super) fn speed_after(self, time: f64) -> f64 {
-        self.speed + self.pull * time
     }
 }
 
@@ -55,30 +36,30 @@ pub(crate) struct Forms<'f, const N: usize> {
     pub(crate) numbers: &'f [f64],
 }
 
-/// Follows a pad from the release on for the dimensionless time `left`, at a tolerance. `None` where it cannot be
-/// followed, a law leaves its range, or it meets again what has left it.
-pub(crate) fn follow<const N: usize>(
+/// Whether what has struck a pad leaves it for good: the pad is followed from the release on for the dimensionless time
+/// `left`, at a tolerance. Not where it cannot be followed, a law leaves its range, or it meets again what has left it.
+pub(crate) fn is_left<const N: usize>(
     Forms { before, behind, numbers }: Forms<'_, N>,
     course: &Course<N>,
     (left, rtol): (f64, f64),
-) -> Option<Aftermath<N>> {
-    let mut instance: Instance<N> = behind.instance()?;
+) -> bool {
+    let Some(mut instance) = behind.instance::<N>() else { return false };
+    let Some(from) = course.track.late(course.release) else { return false };
     if !behind.fill(numbers, &mut instance) {
-        return None;
+        return false;
     }
-    let from = course.track.late(course.release)?;
     let pull = before.0.constant_force(numbers) / before.0.impactor_mass(numbers);
     let flight = Flight { speed: dot(&before.0.speed_of_face(before.1), &from), pull };
     let least = LITTLE * rtol * before.0.energy_at_start(numbers, before.1);
-    let masses = behind.masses_and_speeds(numbers, &instance);
+    let is_massless = behind.masses() == 0;
     let stepped = Stepped { instance: &instance, unknowns: behind.unknowns(), end: left };
     let is_over = |nodes: &Nodes<N>| {
         let last = &nodes.values[nodes.values.len() - 1];
-        masses.is_empty() && behind.stored_at_most(numbers, &instance, last) <= least
+        is_massless && behind.stored_at_most(numbers, &instance, last) <= least
     };
-    let track = stepped.settle(&from, rtol, &is_over)?;
+    let Some(track) = stepped.settle(&from, rtol, &is_over) else { return false };
     if track.steps.iter().any(|own| own.leave(&instance.curves, own.end())) {
-        return None;
+        return false;
     }
     let (face, time) = (behind.speed_of_face(&instance), behind.time_scale());
     let (mut way, mut at) = (0.0, 0.0);
@@ -86,20 +67,18 @@ pub(crate) fn follow<const N: usize>(
         let panel = step.panel(&|z| dot(&face, z));
         let gone = panel.antiderivative();
         // Where no mass swings, nothing comes back within a step.
-        let looks = if masses.is_empty() { &[1.0][..] } else { &PLACES };
+        let looks = if is_massless { &[1.0][..] } else { &PLACES };
         for part in looks {
             at = if *part < 1.0 { panel.start + part * panel.length() } else { panel.end };
             let here = way + gone.value(at) * time;
             at *= time;
             if here - flight.way(at) < -ROUNDING * course.deepest.value {
-                return None;
+                return false;
             }
         }
         way += gone.value(panel.end) * time;
     }
     let end = left * time;
     let is_away = way - flight.way(end) > NEAR * course.deepest.value;
-    let parts = behind.parts(&instance);
-    let own = Aftermath { from, flight, track, parts, masses };
-    (is_away && at <= end * (1.0 + ROUNDING)).then_some(own)
+    is_away && at <= end * (1.0 + ROUNDING)
 }

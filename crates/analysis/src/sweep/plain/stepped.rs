@@ -4,11 +4,11 @@
 //! zero, and the unknowns at the nodes of these. Everything else is read off them, and how far it may be off from
 //! a second solution at a coarser tolerance.
 
-use dashpot_dae::{Extremum, Panel, Signal, Statistics};
+use dashpot_dae::{Extremum, Panel, Signal};
 use dashpot_network::{CurveRow, Instance};
 use dashpot_numerics::{
     chebyshev::Interpolation,
-    dop853::{DEGREE, FURTHER, STAGES, Step},
+    dop853::{DEGREE, Step},
     small::{apply, apply_left, dot},
 };
 
@@ -108,7 +108,6 @@ impl<const N: usize> Nodes<N> {
 #[derive(Debug, Clone)]
 pub(crate) struct Track<const N: usize> {
     pub(crate) steps: Vec<Nodes<N>>,
-    pub(crate) work: Statistics,
     /// The sum of the [defects](Nodes::defect) of its steps.
     defect: f64,
     /// The largest last coefficient of the force in a step \[N\].
@@ -117,13 +116,7 @@ pub(crate) struct Track<const N: usize> {
 
 impl<const N: usize> Track<N> {
     fn new() -> Self {
-        Self { steps: Vec::new(), work: Statistics::default(), defect: 0.0, truncation: 0.0 }
-    }
-
-    /// What is looked at, over time.
-    pub(crate) fn signal(&self, look: &dyn Fn(&[f64; N]) -> f64) -> Signal {
-        let panels = self.steps.iter().map(|step| step.panel(look)).collect();
-        Signal::new(panels, None, 0.0)
+        Self { steps: Vec::new(), defect: 0.0, truncation: 0.0 }
     }
 
     /// The unknowns at a time in the last step.
@@ -134,11 +127,6 @@ impl<const N: usize> Track<N> {
             *own = last.panel(&|z| z[at]).value(time);
         }
         Some(all)
-    }
-
-    /// All nodes in order of time.
-    pub(crate) fn nodes(&self) -> impl Iterator<Item = &[f64; N]> {
-        self.steps.iter().flat_map(|step| &step.values)
     }
 }
 
@@ -227,14 +215,12 @@ impl<const N: usize> Stepped<'_, N> {
         for _ in 0..MOST {
             length = length.min(self.end - time);
             step.attempt(length, &mut slopes);
-            track.work.rhs_calls += STAGES.len();
             let mut error = step.error(self.unit(rtol, &most));
             let mut seen = Seen::default();
             let mut nodes = None;
             let (mut defect, mut truncation) = (0.0, 0.0_f64);
             if error <= 1.0 {
                 step.fit(&mut slopes);
-                track.work.rhs_calls += 1 + FURTHER.len();
                 let own = Nodes::of(&step, (time, time + length), self.instance);
                 seen = Seen::of(&own, &looks);
                 let force = &seen.coefficients[0];
@@ -247,7 +233,6 @@ impl<const N: usize> Stepped<'_, N> {
             let factor = factor(error);
             if error.is_nan() || error > 1.0 {
                 length *= factor.min(SAFETY);
-                track.work.rejected += 1;
                 continue;
             }
             // Beyond the release laws may have kinks that the step would smear.
@@ -270,7 +255,6 @@ impl<const N: usize> Stepped<'_, N> {
             track.steps.extend(nodes);
             track.defect += defect;
             track.truncation = track.truncation.max(truncation);
-            track.work.accepted += 1;
             if until.is_some() {
                 return released(course, track);
             }
@@ -304,17 +288,13 @@ impl<const N: usize> Stepped<'_, N> {
             }
             length = length.min(self.end - time);
             step.attempt(length, &mut slopes);
-            track.work.rhs_calls += STAGES.len();
             let error = step.error(self.unit(rtol, &most));
             let factor = factor(error);
             if error.is_nan() || error > 1.0 {
                 length *= factor.min(SAFETY);
-                track.work.rejected += 1;
                 continue;
             }
             step.fit(&mut slopes);
-            track.work.rhs_calls += 1 + FURTHER.len();
-            track.work.accepted += 1;
             let end = if length < self.end - time { time + length } else { self.end };
             let nodes = Nodes::of(&step, (time, end), self.instance);
             let is_last = is_over(&nodes);

@@ -5,8 +5,10 @@ use dashpot_network::{
     parameters::{Value, WindowWish},
 };
 
-use super::{powers::power_of, stepped::Course};
-use crate::measures::{NO_APPROACH, STANDARD_GRAVITY, hic_search::optimum, selection::Selected};
+use super::stepped::Course;
+use crate::measures::{
+    NO_APPROACH, STANDARD_GRAVITY, hic_search::optimum, powers::power_of, selection::Selected,
+};
 
 /// Which integrals are wanted.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -1,16 +1,12 @@
 //! How far off what is read off the steps of an impact may be: solutions at falling tolerances.
 
-use std::time::Instant;
-
-use dashpot_dae::Statistics;
-
 use super::stepped::{Course, Stepped};
 
 /// Tolerances in parts of the accuracy that is wanted.
 pub(crate) const TOLERANCES: [f64; 4] = [1e-1, 1e-3, 1e-5, 1e-7];
 /// Solutions are no coarser than for this accuracy: of few steps two have about the same ones, and their difference
 /// tells nothing.
-pub(crate) const LOOSEST: f64 = 1e-3;
+const LOOSEST: f64 = 1e-3;
 const FINEST: f64 = 1e-13;
 /// What is doubted of each value, in parts of the largest relative difference of two solutions: one of them may
 /// agree by chance.
@@ -29,7 +25,6 @@ pub(crate) struct Found<const N: usize> {
     pub(crate) ratio: f64,
     /// How many solutions there were besides.
     pub(crate) others: usize,
-    pub(crate) work: Statistics,
 }
 
 /// The tolerance of this number for values that are to be so accurate.
@@ -46,12 +41,10 @@ pub(crate) fn with_bars<const N: usize>(
     read: &dyn Fn(&Course<N>) -> Vec<[f64; 2]>,
     suffice: &dyn Fn(&[f64], &[f64]) -> bool,
 ) -> Option<Found<N>> {
-    let (mut tolerances, begin) = (tolerances.iter().copied(), Instant::now());
+    let mut tolerances = tolerances.iter().copied();
     let first = stepped.follow(tolerances.next()?)?;
     let (mut before, mut estimate) = (read(&first), first.relative_error());
-    let mut work = first.track.work;
     for (others, rtol) in (1..).zip(tolerances) {
-        let wall = begin.elapsed();
         let course = stepped.follow(rtol)?;
         let own = read(&course);
         let both = || own.iter().zip(&before);
@@ -62,18 +55,9 @@ pub(crate) fn with_bars<const N: usize>(
         let errors: Vec<f64> = differences().map(bar).collect();
         let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
         if suffice(&values, &errors) {
-            work.wall = wall;
-            return Some(Found { values, errors, course, ratio, others, work });
+            return Some(Found { values, errors, course, ratio, others });
         }
-        added(&mut work, &course.track.work);
         (before, estimate) = (own, own_error);
     }
     None
-}
-
-/// Adds the work of another solution.
-pub(crate) fn added(sum: &mut Statistics, own: &Statistics) {
-    sum.accepted += own.accepted;
-    sum.rejected += own.rejected;
-    sum.rhs_calls += own.rhs_calls;
 }
