@@ -6,7 +6,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// A gradient below this part of the target's length is zero.
+/// A gradient below this part of the target's length, or of what pulls along its column, is zero.
 const FLAT: f64 = 1e-11;
 /// Added to the diagonal of a Gram matrix, of which one is the largest entry.
 const RIDGE: f64 = 1e-14;
@@ -77,14 +77,16 @@ impl NonNegative {
             state.passive = warm.to_vec();
             self.settle(&mut state);
         }
-        let flat = FLAT * self.target.norm().max(self.pull.amax());
+        // A column that is next to nothing is pulled much, and the others not with it.
+        let length = self.target.norm();
+        let flat = |at: usize| FLAT * length.max(self.pull[at].abs());
         let mut barred = vec![false; count];
         for _ in 0..MOST_CHANGES * count {
             let left = &self.target - self.model(&state.values);
             let descent = self.columns.tr_mul(&left) + &self.pull;
             let open = (0..count).filter(|at| !barred[*at] && !state.passive.contains(at));
             let steepest = open.max_by(|&one, &other| descent[one].total_cmp(&descent[other]));
-            let Some(enters) = steepest.filter(|&at| descent[at] > flat) else { break };
+            let Some(enters) = steepest.filter(|&at| descent[at] > flat(at)) else { break };
             let before = state.clone();
             state.passive.push(enters);
             if !self.settle(&mut state) || state.values[enters] <= 0.0 {
