@@ -281,3 +281,62 @@ fn what_no_impact_does_is_a_warning_wherever_it_is_told() {
     let own = crate::cli::json(&[&args[..], &["--json"]].concat());
     assert!(own.to_string().contains("gains-energy"), "{own}");
 }
+
+/// A limit in what its measure is not would be compared by its number in SI units.
+#[test]
+fn a_limit_of_another_dimension_is_refused_with_both() {
+    let folder = TempDir::new().unwrap();
+    let columns =
+        [("acc [g]", 150.0), ("F [N]", 4e3), ("v [m/s]", 3.0), ("x [mm]", 12.0), ("p [kPa]", 90.0)];
+    let path = file(&folder, "a.csv", &table(&columns));
+    let path = path.to_str().unwrap();
+    let judged = |limit: &str, more: &[&str]| {
+        let channel = ["--channel", limit.split_once('.').unwrap().0];
+        let args = ["signal", path, "--limit", limit, "--enforce"];
+        let output = run(&[&args[..], &channel, more].concat());
+        let told = format!("{}{}", out(&output), err(&output));
+        (code(&output), told.split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    for (limit, words) in [
+        (
+            "acc.peak<=250 kN",
+            "`acc.peak` is an acceleration, in g or m/s^2, and `250 kN` is a force",
+        ),
+        ("acc.peak<=250 mm", "and `250 mm` is a length"),
+        ("acc.peak<=250 kPa", "and `250 kPa` is a pressure"),
+        ("acc.peak>=0.1 m/s", "and `0.1 m/s` is a velocity"),
+        (
+            "acc.peak=en-1621-1-level-1",
+            "`en-1621-1-level-1` (EN 1621-1:2012, level 1) limits a force",
+        ),
+        ("F.peak<=900 g", "`F.peak` is a force, in N or kN, and `900 g` is an acceleration"),
+        ("F.peak=en-1078", "`en-1078` (EN 1078:2012) limits an acceleration"),
+        ("v.peak<=900 g", "`v.peak` is a velocity, in m/s, and"),
+        ("x.peak<=900 g", "`x.peak` is a length, in m or mm, and"),
+        ("p.peak<=900 g", "`p.peak` is a pressure, in Pa, and"),
+        ("acc.hic15<=10 ms", "`hic15` is an index, which has no unit; `10 ms` has one"),
+        ("acc.severity-index<=10 ms", "is an index"),
+        ("acc.hic15=en-1078", "`en-1078` is a limit on `peak-acceleration`"),
+        ("acc.peak<=en-1078", "`en-1078` is a standard: write `acc.peak=en-1078`"),
+        ("acc.clip-3ms<=80 kN", "`80 kN` is a force"),
+        ("acc.clip-3ms-at-once<=80 kN", "`80 kN` is a force"),
+        ("acc.velocity-change<=80 kN", "`80 kN` is a force"),
+        ("acc.contact-time<=80 kN", "`80 kN` is a force"),
+        ("F.impulse<=80 kN", ""),
+    ] {
+        let (status, told) = judged(limit, &[]);
+        assert!(status == 2 && told.contains(words), "{limit}: {status}, {told}");
+    }
+    let motion = ["--velocity", "3 m/s", "--mass", "5 kg"];
+    for word in ["peak-displacement", "coefficient-of-restitution"] {
+        let (status, told) = judged(&format!("acc.{word}<=80 kN"), &motion);
+        assert!(status == 2 && told.contains("force"), "{word}: {status}, {told}");
+    }
+    for limit in ["acc.peak<=250 g", "acc.peak<=3 km/s^2", "acc.peak>=0", "F.peak<=5 kN"] {
+        assert_eq!(judged(limit, &[]).0, 0, "{limit}");
+    }
+    for limit in ["F.peak=en-1621-1-level-1", "v.peak<=4 m/s", "x.peak<=2 cm", "p.peak<=100 kPa"] {
+        let (status, told) = judged(limit, &[]);
+        assert_eq!(status, 0, "{limit}: {told}");
+    }
+}

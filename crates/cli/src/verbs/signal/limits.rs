@@ -1,11 +1,12 @@
 //! Limits on what is read off channels.
 
-use dashpot_analysis::{Bound, Judgement, Limit, Reason};
+use dashpot_analysis::{Bound, Judgement, Limit, Reason, limits::standards::standard};
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::{nearest, parse_limits};
+use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{
     Analysis, Measure, Part, Reading, Reason as Open, Truth, location_of_resultant,
 };
+use dashpot_units::{parse_dimension, si_unit};
 
 use super::{Signal, Signals};
 use crate::error::CliError;
@@ -20,7 +21,17 @@ const SAME: [(&str, &[&str]); 4] = [
 
 /// Limits that one argument states, each with the channel and the measure of signals in its key.
 #[derive(Debug, Clone)]
-pub(super) struct Parsed(pub(super) Vec<Limit>);
+pub(super) struct Parsed(pub(super) Vec<Stated>);
+
+/// A limit as it is stated.
+#[derive(Debug, Clone)]
+pub(super) struct Stated {
+    limit: Limit,
+    /// The quantity or the standard, as it is written.
+    level: String,
+    /// What that is in; `None` of a plain zero.
+    dimension: Option<Dimension>,
+}
 
 /// The channel and the measure in a key.
 fn parts(key: &str) -> (&str, &str) {
@@ -97,9 +108,29 @@ fn judge(own: &Reading, bound: Bound, reason: Option<Reason>) -> Judgement {
 pub(super) fn parse(text: &str) -> Result<Parsed, String> {
     let place = text.find(['<', '>', '=']).unwrap_or(text.len());
     let (key, rest) = text.split_at(place);
-    let (channel, word) = parts(key.trim());
+    let (key, level) = (key.trim(), rest.trim_start_matches(['<', '>', '=']).trim());
+    let (channel, word) = parts(key);
+    if !rest.starts_with('=') && standard(level).is_some() {
+        return Err(format!("`{level}` is a standard: write `{key}={level}`"));
+    }
+    let stated = |limit: Limit, dimension: Option<Dimension>| {
+        let is_zero = limit.unit.is_none() && limit.bound.level() == 0.0;
+        let dimension = dimension.filter(|_| !is_zero);
+        Stated { limit: Limit { key: key.to_owned(), ..limit }, level: level.to_owned(), dimension }
+    };
+    let own = |limit: Limit| {
+        let dimension = limit.measure().and_then(|own| parse_dimension(own.about.unit).ok());
+        stated(limit, dimension)
+    };
+    let is_index = |own: Measure| own.is_index() && own.word() == word;
+    if Measure::of(Dimension::ACCELERATION).any(is_index)
+        && parse_quantity(level).is_ok_and(|own| own.dimension.is_some())
+    {
+        return Err(format!(
+            "`{word}` is an index, which has no unit; `{level}` has one: write a plain number"
+        ));
+    }
     let same = SAME.iter().find(|own| own.0 == word).map(|own| own.1);
-    let own = |limit: Limit| Limit { key: key.trim().to_owned(), ..limit };
     let mut fault = None;
     for word in same.unwrap_or(&[word]) {
         match parse_limits(&format!("{channel}.{word}{rest}")) {
@@ -111,7 +142,33 @@ pub(super) fn parse(text: &str) -> Result<Parsed, String> {
             }
         }
     }
-    Err(fault.unwrap_or_default())
+    // A channel may be of what no measure of scenes is in.
+    let bound = match rest.get(..2) {
+        Some("<=") => Some(Bound::Max as fn(f64) -> Bound),
+        Some(">=") => Some(Bound::Min as fn(f64) -> Bound),
+        _ => None,
+    };
+    let other = parse_quantity(level).ok().filter(|own| own.dimension.is_some());
+    match bound.zip(other).filter(|_| word == Measure::Peak.word() && !channel.is_empty()) {
+        Some((bound, own)) => {
+            Ok(Parsed(vec![stated(Limit::new(key, bound(own.value)), own.dimension)]))
+        }
+        None => Err(fault.unwrap_or_default()),
+    }
+}
+
+/// A dimension in words, with its units.
+fn told(dimension: Dimension) -> (String, String) {
+    let units = match dimension {
+        Dimension::ACCELERATION => "g or m/s^2".to_owned(),
+        Dimension::FORCE => "N or kN".to_owned(),
+        Dimension::LENGTH => "m or mm".to_owned(),
+        Dimension::TIME => "s or ms".to_owned(),
+        other => si_unit(other),
+    };
+    let name = dimension.named().map_or("quantity", |own| own.0);
+    let article = if name.starts_with(['a', 'e', 'i']) { "an" } else { "a" };
+    (format!("{article} {name}"), units)
 }
 
 /// Whether a measure of a channel is the one of a limit.
@@ -127,10 +184,23 @@ fn is_it(limit: &Limit, measure: Measure, dimension: Dimension) -> bool {
     word == measure.word() || measure == Measure::Peak && (word == peak || is_force)
 }
 
-/// Refuses a limit on what no channel has.
+/// Refuses a limit on what no channel has, or in what its measure is not.
 pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
-    for limit in &signals.limits {
-        if !signals.readings(limit).is_empty() {
+    for Stated { limit, level, dimension } in &signals.limits {
+        let found = signals.readings(limit);
+        let of =
+            |own: &(&Signal, &Reading)| own.1.measure.dimension(own.0.analysis.channel.dimension());
+        let other = found.iter().map(of).find(|own| dimension.is_some_and(|given| given != *own));
+        if let Some((own, given)) = other.zip(*dimension) {
+            let ((own, units), given) = (told(own), told(given));
+            let given = match &limit.from {
+                Some(edition) => format!("`{level}` ({edition}) limits {}", given.0),
+                None => format!("`{level}` is {}, in {}", given.0, given.1),
+            };
+            let reason = format!("`{}` is {own}, in {units}, and {given}", limit.key);
+            return Err(CliError::WrongSetting { name: "--limit".to_owned(), reason });
+        }
+        if !found.is_empty() {
             continue;
         }
         let keys = signals.all.iter().flat_map(|own| {
@@ -185,7 +255,7 @@ impl Signals {
     /// What is known of every limit: for each channel, or for the mean of all tests.
     pub(super) fn verdicts(&self) -> Vec<Verdict<'_>> {
         let mut verdicts = Vec::new();
-        for limit in &self.limits {
+        for Stated { limit, .. } in &self.limits {
             let found = self.readings(limit);
             let tests = if limit.of_mean { found.len().max(1) } else { 1 };
             verdicts.extend(found.chunks(tests).filter_map(|own| self.verdict(limit, own)));

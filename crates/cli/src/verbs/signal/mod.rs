@@ -10,7 +10,7 @@ pub(super) mod words;
 use std::path::PathBuf;
 
 use clap::Args;
-use dashpot_analysis::{Limit, measures::STANDARD_GRAVITY};
+use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_network::parameters::Dimension;
 use dashpot_signal::{
     Analysis, Approach, Axis, Cfc, Channel, Padding, Part, Place, Removal, Settings,
@@ -18,7 +18,7 @@ use dashpot_signal::{
 use serde::Serialize;
 
 use self::{
-    limits::Verdict,
+    limits::{Stated, Verdict},
     read::{MeasuredChannel, Record},
 };
 use crate::{
@@ -139,7 +139,7 @@ struct Signal {
 /// What some files say.
 struct Signals {
     all: Vec<Signal>,
-    limits: Vec<Limit>,
+    limits: Vec<Stated>,
     /// Along which axes bodies may move.
     guided: Vec<Axis>,
     notes: Vec<String>,
@@ -228,7 +228,7 @@ impl SignalArguments {
 
 /// Reads files.
 pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let limits: Vec<Limit> = arguments.limit.iter().flat_map(|own| own.0.clone()).collect();
+    let limits: Vec<Stated> = arguments.limit.iter().flat_map(|own| own.0.clone()).collect();
     if arguments.enforce && limits.is_empty() {
         return Err(CliError::NoLimits);
     }
