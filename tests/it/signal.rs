@@ -11,6 +11,8 @@ use tempfile::TempDir;
 
 use crate::cli::{code, err, file, json, out, run};
 
+mod silent;
+
 /// Folder with records from outside, which are no part of the project.
 const DATA: &str = "DASHPOT_TEST_DATA";
 

@@ -237,6 +237,8 @@ fn what_is_written_wrongly_is_told_with_what_to_write() {
     };
     let (status, text) = told(&["--offset", "yes"]);
     assert!(status == 2 && text.contains("neither `auto` nor a value"), "{text}");
+    let (status, text) = told(&["--velocity", "-5.6 m/s"]);
+    assert!(status == 2 && text.contains("whichever way the peak points"), "{text}");
     let (status, text) = told(&["--filter", "200 Hz"]);
     assert!(status == 2 && text.contains("write 60, 180, 600 or 1000"), "{text}");
 }

@@ -9,6 +9,7 @@ use crate::{
     clipping::{self, Clipping},
     defects::defects,
     measures::Reader,
+    noise::NEAR,
 };
 
 /// What is taken off a channel before anything else.
@@ -90,6 +91,9 @@ pub struct Analysis {
     pub steps: Steps,
     /// The reading at rest, where the record tells it.
     pub offset: Option<Offset>,
+    /// Of an acceleration or a force the reading at rest behind the pulse, where nothing is at rest before it and nothing
+    /// was taken off, and that is not zero: its zero may be off by as much, which the errors hold.
+    pub behind: Option<Offset>,
     /// What was taken off, in SI units.
     pub removed: Option<f64>,
     /// What was done with it.
@@ -119,10 +123,12 @@ pub struct Treated {
     pub channel: Channel,
     /// The reading at rest, where the record tells it.
     pub offset: Option<Offset>,
+    /// The reading at rest behind the pulse, where the zero may be off by as much.
+    pub(crate) behind: Option<Offset>,
     /// What was taken off, in SI units.
     pub removed: Option<f64>,
     /// How far every sample may be off in the same direction: by the error of the offset that was taken off, or all of the
-    /// reading at rest that was not, of an acceleration or a force; by half a resolution; by what else is stated.
+    /// reading at rest that was not, of an acceleration or a force, behind the pulse where nothing rests before; by half a resolution; by what else is stated.
     pub floor: f64,
     /// What it reads at rest; 0 where that is not known.
     pub rest: f64,
@@ -155,8 +161,13 @@ impl Settings {
         let rest = offset.map_or(0.0, |own| own.value - removed.unwrap_or(0.0));
         // A velocity or displacement may stand anywhere before an impact.
         let has_zero = matches!(raw.dimension(), Dimension::ACCELERATION | Dimension::FORCE);
+        let behind = (has_zero && offset.is_none() && removed.is_none())
+            .then(|| Offset::behind_pulse(raw).filter(Offset::is_there))
+            .flatten();
         let error = offset.filter(|_| has_zero || self.offset == Removal::Found);
-        let error = error.map_or(0.0, |own| rest.abs() + own.error);
+        let error = error.map(|own| rest.abs() + own.error);
+        let behind_error = behind.map_or(0.0, |own| own.value.abs() + own.error);
+        let error = error.unwrap_or(behind_error);
         let floor = error + 0.5 * raw.resolution() + self.error;
         let sign = if self.is_inverted { -1.0 } else { 1.0 };
         let (mut channel, mut at_rest) =
@@ -190,7 +201,7 @@ impl Settings {
             channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
             at_rest = at_rest.and_then(|own| own.cut(window).ok());
         }
-        Ok(Treated { channel, offset, removed, floor, rest: sign * rest, at_rest })
+        Ok(Treated { channel, offset, behind, removed, floor, rest: sign * rest, at_rest })
     }
 
     /// Reads a channel.
@@ -219,12 +230,14 @@ impl Settings {
         noise: Noise,
         (part, clipped): (Part, Vec<(f64, f64)>),
     ) -> Analysis {
-        let Treated { channel, offset, removed, floor, rest, at_rest } = treated;
+        let Treated { channel, offset, behind, removed, floor, rest, at_rest } = treated;
         let uncertainty = Uncertainty { floor, rest, noise };
         let seen = (&part, &clipped[..]);
         let (mut readings, motion, contact) = self.readings(&channel, uncertainty, seen);
         let change = at_rest.as_ref().map_or(0.0, |own| channel.apart(own));
-        let is_open = change > f64::max(noise.extreme(1), ROUNDING * channel.largest().1);
+        // Before a filter the noise of the samples at the ends is larger, and odd ends turn about them.
+        let at_ends = || Noise::of(&raw, offset.as_ref(), None).extreme(NEAR);
+        let is_open = change > ROUNDING * channel.largest().1 && change > at_ends();
         if let Some(other) = at_rest.filter(|_| is_open) {
             let others = self.readings(&other, uncertainty, seen).0;
             for (own, other) in readings.iter_mut().zip(others) {
@@ -240,6 +253,7 @@ impl Settings {
             part,
             beside: Vec::new(),
             offset,
+            behind,
             removed,
             settings: *self,
             contact,
@@ -273,7 +287,10 @@ impl Settings {
         for (motion, approach) in motion.iter().zip(approach) {
             let all = motion.readings(channel, approach).into_iter();
             let motion = (motion, approach.gravity);
-            let left = |own| clipping.map_or(own, |clipping| clipping.left(own, Some(motion)));
+            let left = |own| match clipping {
+                Some(clipping) => clipping.left(own, Some(motion)),
+                None => motion.0.left(own),
+            };
             readings.extend(all.map(left));
         }
         (readings, motion, reader.contact())

@@ -199,6 +199,14 @@ impl Channel {
         self.with_values(self.values.iter().copied().map(change).collect())
     }
 
+    /// The same backwards in time.
+    #[must_use]
+    pub(crate) fn reversed(&self) -> Self {
+        let times = self.times.iter().rev().map(|own| -own).collect();
+        let values = self.values.iter().rev().copied().collect();
+        Self { times, values, ..self.clone() }
+    }
+
     /// The same with so many samples before and behind at which nothing happens.
     pub(crate) fn between_rests(&self, rest: f64, count: f64) -> Option<Self> {
         let (first, last) = self.span();

@@ -5,8 +5,9 @@ use dashpot_units::{Dimension, percent, quantity, si_unit};
 use thiserror::Error;
 
 use crate::{
-    Analysis, Axis, Cfc, Channel, Measure, Part, Removal, Truth,
+    Analysis, Axis, CONTACT_LEVEL, Cfc, Channel, Measure, Motion, Offset, Part, Removal, Truth,
     clipping::{EQUAL, runs},
+    offset::{IMPACT, IN_A_ROW},
 };
 
 /// Shares of the peak: an offset, a rest behind the pulse, a resolution, a sample out of line.
@@ -40,6 +41,13 @@ pub enum Defect {
         shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
     )]
     Offset { value: f64, error: f64, share: f64, unit: Dimension },
+    /// A record that begins with the pulse, and does not read zero at rest behind it.
+    #[error(
+        "nothing is at rest before its pulse, and behind it {level} is read ({part} of the peak): its zero may be off by \
+         that, which the errors hold; record some ms before the impact, or say what to take off, `--offset \"{level}\"`",
+        level = shown(*.value, *.unit), part = percent(*.share, 2)
+    )]
+    UnknownZero { value: f64, error: f64, share: f64, unit: Dimension },
     /// A reading at rest that changes, before the pulse or from before it to behind it.
     #[error(
         "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
@@ -85,6 +93,13 @@ pub enum Defect {
     /// A record that begins or ends within the pulse.
     #[error("the record begins or ends within the pulse: its numbers are those of a part")]
     Cut,
+    /// Another impact than the one with the peak.
+    #[error(
+        "holds another impact, of {} at {}: severity index, clips and integrals are those of both, the contact time is that \
+         of the larger one; `--from` and `--to` read one alone",
+        shown(*.value, *.unit), seconds(*.time)
+    )]
+    SecondImpact { value: f64, time: f64, unit: Dimension },
     /// A filter that smears the pulse beyond an end of the record, so that what stood there counts.
     #[error(
         "begins or ends where its filter still smears the pulse: samples change by {} with what stood beyond, which the \
@@ -119,6 +134,12 @@ pub enum Defect {
     /// A record beside a model that goes to the other side.
     #[error("goes to the other side than the model: turn the sign of its column")]
     Opposed,
+    /// A body that still moves in when the pulse is over.
+    #[error(
+        "does not stop: it still moves in at {} when the {} is over: the record, its unit or the velocity is wrong",
+        quantity(*.velocity, "m/s", DIGITS), if *.is_cut { "record" } else { "pulse" }
+    )]
+    DoesNotStop { velocity: f64, is_cut: bool },
     /// An axis beside others that went through another filter class, so that they have no resultant.
     #[error(
         "went through another filter class than other axes of its location, and is no part of their resultant"
@@ -142,6 +163,7 @@ impl Defect {
         match self {
             Self::Flat { .. } => "flat",
             Self::Offset { .. } => "offset",
+            Self::UnknownZero { .. } => "unknown-zero",
             Self::Drift { .. } => "drift",
             Self::Clipped { .. } => "clipped",
             Self::Held { .. } => "held",
@@ -151,6 +173,7 @@ impl Defect {
             Self::Coarse { .. } => "coarse",
             Self::FewSamples { .. } => "few-samples",
             Self::Cut => "cut",
+            Self::SecondImpact { .. } => "second-impact",
             Self::SmearedBeyond { .. } => "smeared-beyond",
             Self::SlowForClass { .. } => "slow-for-class",
             Self::OddClass { .. } => "odd-class",
@@ -158,6 +181,7 @@ impl Defect {
             Self::OddLength { .. } => "odd-length",
             Self::GainsEnergy { .. } => "gains-energy",
             Self::Opposed => "opposed",
+            Self::DoesNotStop { .. } => "does-not-stop",
             Self::OtherFilter => "other-filter",
             Self::AxisTwice => "axis-twice",
             Self::AxesApart => "axes-apart",
@@ -196,6 +220,7 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     if own.beyond > 0.0 {
         all.push(Defect::SmearedBeyond { change: own.beyond, unit });
     }
+    all.extend(second(own, unit));
     all.extend(offset(own, peak, unit));
     all.extend(drift(own, peak, unit));
     let step = own.raw.resolution();
@@ -206,7 +231,45 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     all.extend(of_pulse(own, peak, unit));
     all.extend(of_filter(own));
     all.extend(gain(own));
+    // What is clipped would slow it down by more.
+    let onward = own.motion.as_ref().filter(|_| own.clipped.is_empty()).and_then(Motion::onward);
+    let is_cut = own.contact.is_cut;
+    all.extend(onward.map(|velocity| Defect::DoesNotStop { velocity, is_cut }));
     all
+}
+
+/// An impact apart from that with the peak: beyond a tenth of it, where nothing was beyond what counts as contact for half of
+/// the length of the contact in between.
+fn second(own: &Analysis, unit: Dimension) -> Option<Defect> {
+    if !matches!(unit, Dimension::ACCELERATION | Dimension::FORCE) {
+        return None;
+    }
+    let (times, values) = (own.channel.times(), own.channel.values());
+    let (peak, contact) = (own.channel.largest().1, own.contact);
+    let value = |at: usize| (values[at] - own.uncertainty.rest).abs();
+    let least = (IMPACT * peak).max(own.uncertainty.noise.extreme(values.len()));
+    let first = times.partition_point(|time| *time < contact.window.0);
+    let last = times.partition_point(|time| *time <= contact.window.1);
+    let apart = |all: &mut dyn Iterator<Item = usize>, end: f64| {
+        let (mut since, mut pause, mut row) = (end, 0.0_f64, 0);
+        for at in all {
+            if value(at) >= CONTACT_LEVEL * peak {
+                since = times[at];
+            }
+            pause = pause.max((times[at] - since).abs());
+            row = if value(at) > least { row + 1 } else { 0 };
+            if row == IN_A_ROW && pause > 0.5 * contact.length() {
+                return Some(at);
+            }
+        }
+        None
+    };
+    let found = apart(&mut (0..first).rev(), contact.window.0)
+        .or_else(|| apart(&mut (last..times.len()), contact.window.1))?;
+    let beyond = |at: &usize| value(*at) > least;
+    let all = (found..times.len()).take_while(beyond).chain((0..found).rev().take_while(beyond));
+    let top = all.max_by(|one, other| value(*one).total_cmp(&value(*other)))?;
+    Some(Defect::SecondImpact { value: values[top].abs(), time: times[top], unit })
 }
 
 /// Energy that an impact would have made.
@@ -275,6 +338,11 @@ fn spikes(channel: &Channel) -> Option<Defect> {
 }
 
 fn offset(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
+    if let Some(Offset { value, error, .. }) = own.behind {
+        let share = value.abs() / peak;
+        let own = Defect::UnknownZero { value, error, share, unit };
+        return (share > OFFSET_SHARE).then_some(own);
+    }
     let rest = own.offset.filter(|_| own.settings.offset == Removal::Nothing)?;
     let share = rest.value.abs() / peak;
     (rest.is_there() && share > OFFSET_SHARE).then_some(Defect::Offset {

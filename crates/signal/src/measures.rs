@@ -67,6 +67,9 @@ pub enum Reason {
     /// It is clipped, and nothing bounds it.
     #[error("clipped, which leaves it open")]
     Clipped,
+    /// The body does not stop, so that it does not come back.
+    #[error("the body does not stop")]
+    DoesNotStop,
 }
 
 impl Reason {
@@ -75,6 +78,7 @@ impl Reason {
         match self {
             Self::RecordTooShort => "record-too-short",
             Self::Clipped => "clipped",
+            Self::DoesNotStop => "does-not-stop",
         }
     }
 }

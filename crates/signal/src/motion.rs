@@ -1,6 +1,11 @@
 //! Velocity and displacement of what an accelerometer is on, or of a free striker that a force acts on.
 
-use crate::{Channel, Contact, Impact, Measure, Reading, Uncertainty, sampling::Sampling};
+use crate::{
+    Channel, Contact, Impact, Measure, Reading, Reason, Truth, Uncertainty, sampling::Sampling,
+};
+
+/// A body that moves in with less than this part of its speed of approach when the pulse is over has stopped.
+const STOPPED: f64 = 1e-3;
 
 /// How a body moves before the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +121,26 @@ impl Motion {
     /// Whether it comes to rest within the impact.
     pub(crate) fn turns(&self) -> bool {
         self.velocity[self.impact.begin..=self.impact.end].iter().any(|own| *own <= 0.0)
+    }
+
+    /// With what velocity it still moves in for certain when the pulse is over \[m/s\], where it does.
+    pub(crate) fn onward(&self) -> Option<f64> {
+        let (back, error) = self.rebound();
+        let is_certain = -back > error + STOPPED * self.velocity[self.impact.begin];
+        (is_certain && !self.turns()).then_some(-back)
+    }
+
+    /// What is left of a reading of a body that does not stop: it goes deeper than where the pulse is over, and nothing of it
+    /// comes back.
+    pub(crate) fn left(&self, reading: Reading) -> Reading {
+        match (self.onward(), reading.measure) {
+            (None, _) => reading,
+            (_, Measure::Displacement | Measure::EnergyTaken) => reading.bounded(Truth::AtLeast),
+            _ => Reading {
+                value: Err(Reason::DoesNotStop),
+                ..Reading::new(reading.measure, 0.0, 0.0)
+            },
+        }
     }
 
     /// The speed at which it comes back \[m/s\], and how far that may be off.

@@ -11,7 +11,7 @@ const FOURTH: f64 = 70.0;
 /// Noise bandwidth of both passes of a class in parts of its design frequency: `∫ (1 + x⁴)⁻² dx = 3π/(8 √2)`.
 const BANDWIDTH: f64 = 0.833_04;
 /// Samples of which one at most is beyond [`Noise::extreme`], where it is not counted how many are near.
-const NEAR: usize = 20;
+pub(crate) const NEAR: usize = 20;
 
 /// Noise of the samples of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]

@@ -11,6 +11,11 @@ const RISEN: f64 = 0.5;
 const RESTLESS: f64 = 0.03;
 /// Fewer samples before the pulse tell no offset.
 const FEWEST: usize = 8;
+/// What is further out than this part of the peak, so many samples in a row, is an impact of its own, and before the pulse
+/// so many are looked for.
+pub(crate) const IMPACT: f64 = 0.1;
+pub(crate) const IN_A_ROW: usize = 3;
+const IMPACTS: usize = 8;
 /// Parts into which the record before the pulse is divided.
 const BLOCKS: usize = 8;
 
@@ -39,30 +44,46 @@ pub struct Offset {
 }
 
 impl Offset {
-    /// The offset of a channel; `None` where fewer than eight samples stand before the pulse, or they are not at rest.
+    /// The offset of a channel; `None` where fewer than eight samples stand before the pulse, or they are not at rest. Of
+    /// several impacts it is that before the first one.
     ///
     /// The record before the pulse ends as long before the first passage of 5 % of the peak as it takes from there
     /// to 50 %, so that a gentle beginning is none of it.
     pub fn before_pulse(channel: &Channel) -> Option<Self> {
-        let (times, values) = (channel.times(), channel.values());
+        let (mut times, mut values) = (channel.times(), channel.values());
         // The peak is counted from a first guess, which a large offset spoils otherwise.
         let guess = median(&values[..values.len().div_ceil(50)]);
         let far = |value: f64| (value - guess).abs();
-        let peak = values.iter().copied().map(far).fold(0.0, f64::max);
-        let top = values.iter().position(|own| far(*own) >= peak)?;
-        let back = |level: f64, from: usize| {
-            (0..from).rev().find(|&at| far(values[at]) < level * peak).map(|at| at + 1)
-        };
-        let risen = back(RISEN, top)?;
-        let begun = back(BEGUN, risen)?;
-        let rise = times[risen] - times[begun];
-        let end = times[begun] - rise.max(times[begun] - times[begun - 1]);
-        let count = times.partition_point(|time| *time <= end);
-        if count < FEWEST {
-            return None;
+        for _ in 0..IMPACTS {
+            let peak = values.iter().copied().map(far).fold(0.0, f64::max);
+            let top = values.iter().position(|own| far(*own) >= peak)?;
+            let back = |level: f64, from: usize| {
+                (0..from).rev().find(|&at| far(values[at]) < level * peak).map(|at| at + 1)
+            };
+            let risen = back(RISEN, top)?;
+            let begun = back(BEGUN, risen)?;
+            let rise = times[risen] - times[begun];
+            let end = times[begun] - rise.max(times[begun] - times[begun - 1]);
+            let count = times.partition_point(|time| *time <= end);
+            if count < FEWEST {
+                return None;
+            }
+            (times, values) = (&times[..count], &values[..count]);
+            let own = Self::of(times, values, channel.resolution());
+            let mut high = values.windows(IN_A_ROW);
+            let has_impact = high.any(|own| own.iter().all(|own| far(*own) > IMPACT * peak));
+            if own.noise <= RESTLESS * peak && !has_impact {
+                return Some(own);
+            }
         }
-        let own = Self::of(&times[..count], &values[..count], channel.resolution());
-        (own.noise <= RESTLESS * peak).then_some(own)
+        None
+    }
+
+    /// The same behind the pulse, or behind the last one of several.
+    pub(crate) fn behind_pulse(channel: &Channel) -> Option<Self> {
+        let own = Self::before_pulse(&channel.reversed())?;
+        let (from, to) = own.window;
+        Some(Self { window: (-to, -from), drift: -own.drift, ..own })
     }
 
     /// The same within a window \[s\] in which something else tells that nothing has begun; `None` of fewer than eight

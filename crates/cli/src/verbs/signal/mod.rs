@@ -77,7 +77,7 @@ pub(crate) struct SignalArguments {
     /// Speed of approach of the body that an accelerometer is on when its contact begins: gives its displacement, its
     /// rebound and the coefficient of restitution. Before, it flies freely. A force needs `--mass` as well: that of a free
     /// striker.
-    #[arg(long, value_name = "SPEED", value_parser = |text: &str| positive("velocity", text, Dimension::VELOCITY))]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, value_parser = speed)]
     velocity: Option<f64>,
     /// Its mass: gives energy taken, returned and absorbed.
     #[arg(long, value_name = "MASS", value_parser = |text: &str| positive("mass", text, Dimension::MASS), requires = "velocity")]
@@ -126,6 +126,12 @@ fn axes(text: &str) -> Result<Guided, String> {
 fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
     let value = argument(name, text, dimension)?;
     if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let value = argument("velocity", text, Dimension::VELOCITY)?;
+    let why = "it must be positive: it is that along the impact, whichever way the peak points";
+    if value > 0.0 { Ok(value) } else { Err(why.to_owned()) }
 }
 
 /// A channel of a file as it was read.
