@@ -21,6 +21,7 @@ mod sketch;
 mod text_metrics;
 mod theme;
 #[cfg(test)]
+#[path = "tests/well_formed.rs"]
 mod well_formed;
 
 pub use chart::{

@@ -14,20 +14,6 @@ const PLACES: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 /// It may seem to be in the pad by so much of that.
 const ROUNDING: f64 = 1e-6;
 
-/// What leaves the pad: its speed \[m/s\], and what pulls it back \[m/s²\].
-#[derive(Debug, Clone, Copy)]
-struct Flight {
-    speed: f64,
-    pull: f64,
-}
-
-impl Flight {
-    /// How far it has come \[m\] after so many seconds.
-    fn way(self, time: f64) -> f64 {
-        (self.speed + 0.5 * self.pull * time) * time
-    }
-}
-
 /// The forms of a pad while it is struck, with its instance, and behind that, and the numbers of both.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Forms<'f, const N: usize> {
@@ -49,7 +35,9 @@ pub(crate) fn is_left<const N: usize>(
         return false;
     }
     let pull = before.0.constant_force(numbers) / before.0.impactor_mass(numbers);
-    let flight = Flight { speed: dot(&before.0.speed_of_face(before.1), &from), pull };
+    let speed = dot(&before.0.speed_of_face(before.1), &from);
+    // How far what leaves the pad has come [m] after so many seconds.
+    let flown = |time: f64| (speed + 0.5 * pull * time) * time;
     let least = LITTLE * rtol * before.0.energy_at_start(numbers, before.1);
     let is_massless = behind.masses() == 0;
     let stepped = Stepped { instance: &instance, unknowns: behind.unknowns(), end: left };
@@ -72,13 +60,13 @@ pub(crate) fn is_left<const N: usize>(
             at = if *part < 1.0 { panel.start + part * panel.length() } else { panel.end };
             let here = way + gone.value(at) * time;
             at *= time;
-            if here - flight.way(at) < -ROUNDING * course.deepest.value {
+            if here - flown(at) < -ROUNDING * course.deepest.value {
                 return false;
             }
         }
         way += gone.value(panel.end) * time;
     }
     let end = left * time;
-    let is_away = way - flight.way(end) > NEAR * course.deepest.value;
+    let is_away = way - flown(end) > NEAR * course.deepest.value;
     is_away && at <= end * (1.0 + ROUNDING)
 }

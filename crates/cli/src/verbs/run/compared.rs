@@ -156,8 +156,10 @@ pub(super) fn remark(all: &[Compared<'_>]) -> Option<String> {
 
 /// What is impossible of what is read of a measured curve, or turned.
 fn impossible(own: &Numbers) -> impl Iterator<Item = &Defect> {
-    let is_meant = |own: &&Defect| matches!(own, Defect::GainsEnergy { .. } | Defect::Opposed);
-    own.measured.defects.iter().filter(is_meant)
+    let all = own.measured.defects.iter();
+    all.filter(|own| {
+        matches!(own, Defect::GainsEnergy { .. } | Defect::DoesNotStop { .. } | Defect::Opposed)
+    })
 }
 
 /// The same in words.

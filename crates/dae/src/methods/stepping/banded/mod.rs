@@ -241,6 +241,7 @@ impl General {
 }
 
 #[cfg(test)]
+#[path = "tests/reduced.rs"]
 mod reduced_tests;
 #[cfg(test)]
 mod tests;
