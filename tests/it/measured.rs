@@ -278,23 +278,6 @@ fn a_run_says_what_the_record_says_that_is_its_own_closed_form() {
     assert!(text.contains("head.acceleration: what both say at the same times"), "{text}");
 }
 
-/// A magnitude hides a turned sign: it is said.
-#[test]
-fn a_record_whose_sign_is_turned_is_said_to_be() {
-    let (folder, [_, drop, ..]) = folder();
-    for (sign, codes) in [(1.0, vec![]), (-1.0, vec!["opposed"])] {
-        let rows: Vec<_> = recorded(None).into_iter().map(|row| (row.0, sign * row.1)).collect();
-        let path = file(&folder, "turned.csv", &table(&rows));
-        let all = ["run", &drop, "--measured", path.to_str().unwrap()];
-        let own = json(&[&all[..], &["--json"]].concat())["runs"][0]["measured"][0].clone();
-        let warnings = own["warnings"].as_array().unwrap().iter();
-        let found: Vec<&str> = warnings.map(|own| own["code"].as_str().unwrap()).collect();
-        assert_eq!(found, codes, "{own}");
-        let text = words(&out(&run(&all)));
-        assert_eq!(text.contains("turn the sign of its column"), sign < 0.0, "{text}");
-    }
-}
-
 #[test]
 fn a_factor_in_the_force_is_that_of_impulse_energy_and_slope() {
     let (folder, [scene, _, force, _]) = folder();

@@ -131,9 +131,6 @@ pub enum Defect {
         ))
     )]
     GainsEnergy { restitution: Option<f64> },
-    /// A record beside a model that goes to the other side.
-    #[error("goes to the other side than the model: turn the sign of its column")]
-    Opposed,
     /// A body that still moves in when the pulse is over.
     #[error(
         "does not stop: it still moves in at {} when the {} is over: the record, its unit or the velocity is wrong",
@@ -180,7 +177,6 @@ impl Defect {
             Self::OddPeak { .. } => "odd-peak",
             Self::OddLength { .. } => "odd-length",
             Self::GainsEnergy { .. } => "gains-energy",
-            Self::Opposed => "opposed",
             Self::DoesNotStop { .. } => "does-not-stop",
             Self::OtherFilter => "other-filter",
             Self::AxisTwice => "axis-twice",

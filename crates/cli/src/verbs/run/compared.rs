@@ -58,12 +58,11 @@ impl Numbers {
         let error = signal.error.unwrap_or(relative * model.largest().1);
         let approach = approach(curve, (first, zero), run, scene);
         let settings = Settings { approach, ..Settings::default() };
-        let product: f64 = rows.iter().zip(model.values()).map(|(row, model)| row.1 * model).sum();
-        let mut measured = settings.analyse(measured).ok()?;
-        if product < 0.0 {
-            measured.defects.push(Defect::Opposed);
-        }
-        Some(Self { measured, model: Settings { error, ..settings }.analyse(model).ok()?, rating })
+        Some(Self {
+            measured: settings.analyse(measured).ok()?,
+            model: Settings { error, ..settings }.analyse(model).ok()?,
+            rating,
+        })
     }
 
     /// What is read of both: measured, and of the model.
@@ -154,12 +153,11 @@ pub(super) fn remark(all: &[Compared<'_>]) -> Option<String> {
     }
 }
 
-/// What is impossible of what is read of a measured curve, or turned.
+/// What is impossible of what is read of a measured curve.
 fn impossible(own: &Numbers) -> impl Iterator<Item = &Defect> {
-    let all = own.measured.defects.iter();
-    all.filter(|own| {
-        matches!(own, Defect::GainsEnergy { .. } | Defect::DoesNotStop { .. } | Defect::Opposed)
-    })
+    let is_meant =
+        |own: &&Defect| matches!(own, Defect::GainsEnergy { .. } | Defect::DoesNotStop { .. });
+    own.measured.defects.iter().filter(is_meant)
 }
 
 /// The same in words.
