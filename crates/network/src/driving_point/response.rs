@@ -178,8 +178,8 @@ fn difference(terms: &[Term], others: &[Term], total: f64) -> f64 {
 }
 
 /// Which terms have no residue to within the rounding of the constants: very weak ones that change as a whole when every
-/// constant is changed in its last place. With them the relative error of those that are weak and stay, by what they are
-/// in the other unit of time.
+/// constant is changed in its last place, or that are rounding alone. With them the relative error of those that are weak
+/// and stay, by what they are in the other unit of time.
 fn hidden(
     circuit: &Circuit,
     [found, turned]: [&[Term]; 2],
@@ -195,8 +195,12 @@ fn hidden(
     for pattern in [11, 12] {
         let others = run(&circuit.rounded(pattern), time)?;
         for &at in &doubtful {
-            let other = counterpart(&found[at], &others);
-            hidden[at] |= other.is_none_or(|other| residue_difference(&found[at], other) > 0.5);
+            let differs = |others: &[Term]| {
+                let other = counterpart(&found[at], others);
+                other.is_none_or(|other| residue_difference(&found[at], other) > 0.5)
+            };
+            // Without masses a residue is a quotient of sums of positive terms, and never rounding alone.
+            hidden[at] |= differs(&others) || !circuit.is_massless() && differs(turned);
         }
     }
     let seen = doubtful.into_iter().filter(|&at| !hidden[at]);
