@@ -146,17 +146,17 @@ fn what_is_left_where_no_noise_is_known_is_judged_by_how_its_rows_follow_each_ot
     assert_eq!(own["measures"]["pad.peak-force"]["no_band"], "missed");
 }
 
-/// The deceleration of 5 kg that meet a spring of 60 kN/m beside a Maxwell element of 200 kN/m and 400 N s/m at 4 m/s, 10 ms
-/// after the record begins, in g, with 0.4 g of noise.
-fn on_three_numbers(stream: &mut Stream) -> String {
+/// The deceleration of 5 kg that meet a spring of 60 kN/m beside a Maxwell element of 200 kN/m and 400 N s/m at 4 m/s, so many
+/// tenths of a millisecond after the record begins, in g, with 0.4 g of noise.
+fn on_three_numbers(stream: &mut Stream, rest: u32) -> String {
     let (mass, spring, branch, dashpot, step) = (5.0, 60e3, 200e3, 400.0, 1e-6);
     let (mut way, mut speed, mut relaxing) = (0.0, 4.0, 0.0);
     let mut rows = "time [ms],acc [g]\n".to_owned();
     for at in 0..500_u32 {
-        let push = if at < 100 { 0.0 } else { f64::max(spring * way + relaxing, 0.0) };
+        let push = if at < rest { 0.0 } else { f64::max(spring * way + relaxing, 0.0) };
         let reading = push / mass / 9.80665 + 0.4 * normal(stream);
         writeln!(rows, "{:.1},{reading:.4}", 0.1 * f64::from(at)).unwrap();
-        for _ in 0..if at < 100 { 0 } else { 100 } {
+        for _ in 0..if at < rest { 0 } else { 100 } {
             let push = f64::max(spring * way + relaxing, 0.0);
             speed -= step * push / mass;
             way += step * speed;
@@ -172,13 +172,15 @@ fn a_model_that_begins_too_late_takes_no_rise_for_noise() {
     let folder = TempDir::new().unwrap();
     let scene = SCENE.replace("4 kg", "5 kg").replace("2 m/s", "4 m/s");
     let scene = file(&folder, "kelvin.toml", &scene);
-    let record = file(&folder, "drop.csv", &on_three_numbers(&mut Stream::new(5)));
-    let to = format!("{}:acc=head.acceleration", text(&record));
-    let varied = ["--vary", "K=5..500 kN/m", "--vary", "C=1..5000 N s/m", "--json"];
-    let fit = json(&[&["fit", text(&scene), "--to", &to][..], &varied].concat());
-    let noise = fit["tests"][0]["noise_at_rest"].as_f64().unwrap() / 9.80665;
-    assert!((noise / 0.4 - 1.0).abs() < 0.4, "{noise} g");
-    for name in ["K", "C"] {
-        assert_eq!(fit["parameters"][name]["identified"].as_bool(), Some(false), "{fit}");
+    for rest in [100, 20] {
+        let record = on_three_numbers(&mut Stream::new(5), rest);
+        let to = format!("{}:acc=head.acceleration", text(&file(&folder, "drop.csv", &record)));
+        let varied = ["--vary", "K=5..500 kN/m", "--vary", "C=1..5000 N s/m", "--json"];
+        let fit = json(&[&["fit", text(&scene), "--to", &to][..], &varied].concat());
+        let noise = fit["tests"][0]["noise_at_rest"].as_f64().unwrap() / 9.80665;
+        assert!((noise / 0.4 - 1.0).abs() < 0.5, "{noise} g");
+        for name in ["K", "C"] {
+            assert_eq!(fit["parameters"][name]["identified"].as_bool(), Some(false), "{fit}");
+        }
     }
 }
