@@ -20,9 +20,6 @@ const FURTHER: u64 = 4;
 pub(crate) const UNDEFINED: u64 = 2_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
-/// Where the budget of the first method is spent before this part of the run, the others show with little whether they get
-/// through.
-const BEGUN: f64 = 0.01;
 /// Lifetimes after which an oscillation takes no steps any more.
 const DECAYED: f64 = 10.0;
 /// Such work that is always granted: some tenths of a second.
@@ -40,7 +37,7 @@ pub(crate) struct Found {
 ///
 /// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something to the
 /// next; none more than `most`, and those after the first no more than a while, because what ends one method seldom
-/// lets another through. Errors: what became of the first one, and of the others.
+/// lets another through: where the first one lacked work, that part of it which it came along the run. Errors: what became of the first one, and of the others.
 pub(crate) fn first_that_solves(
     task: &Task<'_>,
     run: &Run,
@@ -54,10 +51,9 @@ pub(crate) fn first_that_solves(
         let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
         let granted = match &first {
             None => u64::MAX,
-            Some(RunError::Solve(SolveError::BudgetSpent { time, .. }))
-                if *time < BEGUN * run.t_end =>
-            {
-                ALWAYS
+            Some(RunError::Solve(SolveError::BudgetSpent { time, .. })) => {
+                let part = time / run.t_end;
+                ALWAYS.max((part * run.budget.done() as f64) as u64)
             }
             Some(_) => AFTER_ANOTHER.max(run.budget.done()),
         };

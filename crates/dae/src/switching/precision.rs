@@ -21,6 +21,9 @@ const LEAST_BALANCED: f64 = 1e-5;
 /// Least size of all others.
 const LEAST: f64 = 1e-20;
 
+/// Roundings of its rate that an unknown at rest collects.
+const COLLECTED: f64 = 64.0;
+
 /// By how much more than it takes a run is to be longer.
 const AMPLE: f64 = 2.0;
 /// Longest margin in parts of the run: what takes longer rests, or settles on its level.
@@ -55,7 +58,8 @@ pub(super) fn end_margin(
     interval.guards.iter().filter_map(of_guard).reduce(f64::max)
 }
 
-/// The sizes with which an interval is to be solved again; `None` where those of the `run` have done.
+/// The sizes with which an interval is to be solved again; `None` where those of the `run` have done. What has strayed
+/// by no more than the roundings of its rate is at rest, and has no size.
 pub(super) fn smaller_sizes(
     interval: &ModeInterval,
     run: &Run,
@@ -64,6 +68,7 @@ pub(super) fn smaller_sizes(
     let system = interval.system.as_ref();
     let before = |unknown: usize| run.tolerance_scaling.get(unknown).copied().unwrap_or(1.0);
     let mut found: Option<Vec<f64>> = None;
+    let mut collected: Option<Vec<f64>> = None;
     for guard in &interval.guards {
         let output = system.outputs.at(guard.output);
         let scale = output.scale.abs();
@@ -73,16 +78,33 @@ pub(super) fn smaller_sizes(
         if !(held > 0.0 && held < SMALL * unit) {
             continue;
         }
+        let rest = collected.get_or_insert_with(|| collected_roundings(system, trajectory));
         let sizes = found.get_or_insert_with(|| (0..system.len()).map(before).collect());
         for (at, factor) in terms() {
             let least = match system.unknowns[at].kind {
                 UnknownKind::Algebraic => LEAST_BALANCED,
+                UnknownKind::Differential if held <= factor * rest[at] => continue,
                 UnknownKind::Differential => LEAST,
             };
             sizes[at] = sizes[at].min((held / factor).max(least));
         }
     }
     found.filter(|sizes| sizes.iter().enumerate().any(|(at, &own)| own < SMALL * before(at)))
+}
+
+/// What the rounding of its rate at the start of an interval makes of each unknown in all of it.
+fn collected_roundings(system: &System, trajectory: &Trajectory) -> Vec<f64> {
+    let start = trajectory.dense.sample(system, &[0.0]);
+    let mut inputs = vec![0.0; system.inputs.len()];
+    system.inputs_at(0.0, 0.0, &mut inputs);
+    let mut rates = vec![0.0; system.len()];
+    for (matrix, values) in [(&system.jacobian, &start), (&system.input_matrix, &inputs)] {
+        for (row, column, factor) in matrix.triplet_iter() {
+            rates[row] += (factor * values[column]).abs();
+        }
+    }
+    let length = trajectory.t_end / system.time_scale;
+    rates.into_iter().map(|rate| COLLECTED * f64::EPSILON * rate * length).collect()
 }
 
 /// The most that an output has strayed from its level, or had to be summed up of.

@@ -104,7 +104,8 @@ pub(super) fn exits(of: &(impl TwoCurves + ?Sized), phase: Phase) -> Vec<Exit> {
     }
 }
 
-/// One of the two curves.
+/// One of the two curves. The first one goes on below zero, which it never reaches, so that what rests at a deformation
+/// within the tolerance is not at a kink.
 #[derive(Debug)]
 struct Curve<H> {
     law: H,
@@ -124,15 +125,12 @@ impl<H: Hysteresis> Described for Curve<H> {
 
 impl<H: Hysteresis> Element for Curve<H> {
     fn force(&self, deformation: f64, rate: f64) -> f64 {
-        if deformation <= 0.0 {
-            return 0.0;
-        }
         self.law.loading().force(deformation, rate) * self.factor(deformation).0
     }
 
     fn tangent(&self, deformation: f64, rate: f64) -> Tangent {
         let (factor, slope) = self.factor(deformation);
-        if deformation <= 0.0 || factor <= 0.0 {
+        if factor <= 0.0 {
             return Tangent::default();
         }
         let loading = self.law.loading();

@@ -69,21 +69,23 @@ impl ImpactLaw {
         (deformation - self.gap).max(0.0)
     }
 
-    /// The force while it is engaged.
+    /// The force while it is engaged: without a kink at the gap, so that what rests within the tolerance of it is not
+    /// at one.
     fn engaged_force(&self, deformation: f64, rate: f64) -> f64 {
         let factor = (1.0 + self.dissipation * rate).max(0.0);
-        self.power.value(self.depth(deformation)) * factor
+        let depth = deformation - self.gap;
+        self.power.value(depth.abs()).copysign(depth) * factor
     }
 
     fn engaged_tangent(&self, deformation: f64, rate: f64) -> Tangent {
-        let depth = self.depth(deformation);
+        let depth = deformation - self.gap;
         let factor = 1.0 + self.dissipation * rate;
-        if factor <= 0.0 || deformation <= self.gap {
+        if factor <= 0.0 {
             return Tangent::default();
         }
         Tangent {
-            stiffness: self.power.slope(depth) * factor,
-            damping: self.power.value(depth) * self.dissipation,
+            stiffness: self.power.slope(depth.abs()) * factor,
+            damping: self.power.value(depth.abs()).copysign(depth) * self.dissipation,
         }
     }
 
