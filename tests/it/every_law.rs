@@ -97,3 +97,42 @@ fn every_law_under_every_shape_with_every_effect_is_run_or_refused_by_name() {
     );
     assert!(solved > 250, "{solved} solved, {refused} refused");
 }
+
+/// Work of a run of some hundred steps.
+const FEW_STEPS: u64 = 300_000;
+/// Stiff pads that push and never pull.
+const STIFF: [&str; 5] = [
+    "foam = { modulus = \"12 MPa\", plateau = \"0.5 MPa\", densification = \"0.15 MPa\", exponent = 2, \
+     thickness = \"15 mm\", area = \"60 cm^2\" }",
+    "hysteretic-foam = { modulus = \"12 MPa\", plateau = \"0.5 MPa\", densification = \"0.15 MPa\", exponent = 2, \
+     set = 0.5, unloading-exponent = 2, thickness = \"15 mm\", area = \"60 cm^2\" }",
+    "hysteretic-table = { loading = [[\"0 m\", \"0 N\"], [\"1 mm\", \"5 kN\"], [\"5 mm\", \"6 kN\"]], \
+     unloading = [[\"0 m\", \"0 N\"], [\"1 mm\", \"1 kN\"], [\"5 mm\", \"6 kN\"]] }",
+    "hunt-crossley = { force = \"2 kN\", at = \"1 mm\", dissipation = \"0.2 s/m\", exponent = 1 }",
+    "bumper = { force = \"2 kN\", at = \"1 mm\", restitution = 0.5, speed = \"5 m/s\", exponent = 1 }",
+];
+
+/// At 1e-8 m, far below what the tolerance of a place is, and where it remembers by the last digits of its speed.
+#[test]
+fn what_rests_on_a_pad_takes_few_steps_however_small_its_deformation_is() {
+    let mut faults = Vec::new();
+    for pad in STIFF {
+        for mass in ["20 g", "1 kg", "20 kg"] {
+            for method in ["bdf", "tr-bdf2", "esdirk34", "dop853"] {
+                let scene = format!(
+                    "[nodes]\nhead = {{ mass = \"{mass}\" }}\n\
+                     [elements.pad]\nbetween = [\"head\", \"ground\"]\n\
+                     parallel = [{{ {pad} }}, {{ dashpot = \"400 N s/m\" }}]\n\
+                     [effects]\ngravity = {{}}\n[run]\nduration = \"20 ms\"\n"
+                );
+                let scene = read(&scene, &ReadOptions::default()).unwrap().value;
+                let settings = scene.settings(method).unwrap();
+                let settings = SolveSettings { budget: FEW_STEPS, ..settings };
+                if let Err(error) = scene.network.solve_with(&settings) {
+                    faults.push(format!("{mass} on {pad} by {method}: {error}"));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
+}

@@ -132,3 +132,23 @@ fn twenty_rates_stand_in_parts_that_fit_a_terminal() {
     assert!(peaks.len() > 1 && values == 20, "{shown}");
     assert_eq!(shown.matches("network by ").count(), 1, "{shown}");
 }
+
+/// Its force jumps at the very instant at which a pad that remembers has come to rest.
+#[test]
+fn a_force_that_is_taken_from_a_pad_at_rest_lets_it_back_on_its_other_curve() {
+    let folder = tempfile::tempdir().unwrap();
+    let pad = "[models]\npad = { parallel = [{ hysteretic-table = { loading = [[\"0 mm\", \"0 N\"], [\"10 mm\", \"1 kN\"]], \
+               unloading = [[\"5 mm\", \"0 N\"], [\"10 mm\", \"1 kN\"]] } }, { dashpot = \"10 kN s/m\" }] }\n";
+    fs::write(folder.path().join("pad.toml"), pad).unwrap();
+    let with = ["force=800 N", "hold=5 s", "end=5.05 s"].map(|own| ["--with", own]).concat();
+    let words = [&["pad.toml:pad", "--test", "creep-recovery"][..], &with].concat();
+    let test = &json(folder.path(), &words)["tests"][0];
+    let figures = test["figures"].as_array().unwrap();
+    // It has come to 8 mm; then c y' = −2 k (y − 4 mm), for c/(2 k) = 50 ms.
+    let (held, left) = (8e-3, 4e-3 + 4e-3 * (-1.0_f64).exp());
+    for (name, truth) in [("deformation just after", held), ("deformation at the end", left)] {
+        let own = figures.iter().find(|own| own["name"] == name).unwrap();
+        let own = own["computed"].as_f64().unwrap();
+        assert!((own / truth - 1.0).abs() < 1e-8, "{name}: {own}, {truth}");
+    }
+}

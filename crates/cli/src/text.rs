@@ -138,17 +138,20 @@ fn numbered(table: &Table) -> Table {
     }
 }
 
-/// The rows of a table as lines of at most `width` columns: where they do not fit, the last column is wrapped.
-pub(crate) fn fitted(table: &Table, width: usize) -> Vec<String> {
-    let (_, lines) = self::table(table);
+/// Header and rows of a table as lines of at most `width` columns: where they do not fit, the last column is wrapped.
+pub(crate) fn fitted(table: &Table, width: usize) -> (String, Vec<String>) {
     let count = table.rows.iter().map(Vec::len).max().unwrap_or(0);
-    if count < 2 || lines.iter().all(|line| columns(line) <= width) {
-        return lines;
+    if count < 2 || self::width(table) <= width {
+        return self::table(table);
     }
     let last = count - 1;
-    let firsts: Vec<Vec<String>> =
-        table.rows.iter().map(|row| row[..row.len().min(last)].to_vec()).collect();
-    let lead = self::width(&Table { rows: firsts, ..Table::default() }) + GAP;
+    let firsts = |row: &Vec<String>| row[..row.len().min(last)].to_vec();
+    let leading = Table {
+        header: firsts(&table.header),
+        rows: table.rows.iter().map(firsts).collect(),
+        ..Table::default()
+    };
+    let lead = self::width(&leading) + GAP;
     let room = width.saturating_sub(lead).max(LEAST_ROOM);
     let mut rows = Vec::new();
     for row in &table.rows {
@@ -162,7 +165,7 @@ pub(crate) fn fitted(table: &Table, width: usize) -> Vec<String> {
             rows.push(own);
         }
     }
-    self::table(&Table { rows, ..Table::default() }).1
+    self::table(&Table { header: table.header.clone(), rows, ..Table::default() })
 }
 
 /// A label and a text beside it, wrapped; both indented by two columns.
@@ -271,9 +274,9 @@ mod tests {
             rows(&[&["state", "position of a joint inside of pad"], &["algebraic", "force"]]);
         let table = Table { rows, ..Table::default() };
         let wide = ["state      position of a joint inside of pad", "algebraic  force"];
-        assert_eq!(fitted(&table, 80), wide);
+        assert_eq!(fitted(&table, 80).1, wide);
         let narrow =
             ["state      position of a joint", "           inside of pad", "algebraic  force"];
-        assert_eq!(fitted(&table, 31), narrow);
+        assert_eq!(fitted(&table, 31).1, narrow);
     }
 }

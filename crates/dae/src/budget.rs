@@ -13,7 +13,10 @@ const MOST_UNKNOWNS: usize = 1000;
 const DENSE: usize = 30;
 /// What a panel costs that follows a driving function within a step.
 const PANEL: u64 = 500;
-/// What a choice of phases costs, with the equations that follow from it.
+/// What it costs to look for a guard's level in a step, and in a panel of `exact`, which has a higher degree.
+const WATCHED_STEP: u64 = 16;
+const WATCHED_PANEL: u64 = 100;
+/// What a choice of phases costs that is tried, with the equations that follow from it.
 const CHOICE: u64 = 2000;
 
 /// Work that runs may be, and that they have been so far: counted, never timed, so that a run that ends
@@ -22,7 +25,8 @@ const CHOICE: u64 = 2000;
 /// A unit is what one unknown costs in one step, some 30 ns. A step costs 16 units and one for each
 /// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; a linear system about
 /// as much, a factorisation more for each entry; modes cost twice the cube of their number; a panel that
-/// follows a driving function within a step 500; a choice of phases 2000. Copies share one account.
+/// follows a driving function within a step 500; each guard 16 in a step and
+/// 100 in a panel of `exact`; each choice of phases that is tried 2000. Copies share one account.
 #[derive(Debug, Clone, Default)]
 pub struct Budget {
     account: Option<Arc<Account>>,
@@ -121,9 +125,19 @@ impl Budget {
         self.charge((panels as u64).saturating_mul(PANEL))
     }
 
-    /// Counts a choice of phases.
-    pub(crate) fn charge_choice(&self) -> bool {
-        self.charge(CHOICE)
+    /// Counts so many guards in a step.
+    pub(crate) fn charge_watched_step(&self, guards: usize) -> bool {
+        self.charge(WATCHED_STEP * guards as u64)
+    }
+
+    /// Counts so many panels of `exact`, each for its guard.
+    pub(crate) fn charge_watched_panels(&self, panels: usize) -> bool {
+        self.charge(WATCHED_PANEL * panels as u64)
+    }
+
+    /// Counts so many choices of phases.
+    pub(crate) fn charge_choices(&self, tried: usize) -> bool {
+        self.charge(CHOICE * tried as u64)
     }
 }
 

@@ -33,8 +33,8 @@ const TOLERANCES: [f64; 3] = [1e-8, 1e-9, 1e-10];
 /// Places in these.
 const PEAK: usize = 0;
 const RESIDUAL: usize = 8;
-/// Rounding of the sums of a loop, in parts of their largest term.
-const ROUNDING: f64 = 1e-14;
+/// Rounding of the sums of a loop, and of differences, in parts of their largest term.
+pub(super) const ROUNDING: f64 = 1e-14;
 
 /// A deformation out and back.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,7 @@ use dashpot_plot::{Chart, Table};
 use crate::{
     terminal::Tone,
     terminal::{Terminal, WIDTH},
-    text::{columns, labelled, side_by_side, table, wrapped},
+    text::{columns, fitted, labelled, side_by_side, table, wrapped},
 };
 
 /// A text that is being written.
@@ -119,9 +119,9 @@ impl Text {
         self.rows(table);
     }
 
-    /// A table without its caption after an empty line, with a faint header.
+    /// A table without its caption after an empty line, with a faint header; its last column is wrapped.
     pub(crate) fn figures(&mut self, content: &Table) {
-        let (header, rows) = table(content);
+        let (header, rows) = fitted(content, WIDTH - 2);
         self.blank();
         for line in header.lines() {
             self.line(&format!("  {}", self.terminal.toned(Tone::Faint, line)));

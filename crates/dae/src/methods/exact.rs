@@ -194,12 +194,14 @@ fn shares(radians: f64) -> Vec<f64> {
 fn search(
     solution: &Solution,
     system: &System,
-    guards: &[Guard],
+    run: &Run,
     until: f64,
 ) -> (Vec<Event>, Option<Stop>) {
     let part = solution.clone().until(until).apart();
     let signal = |guard: &Guard| crate::Dense::signal(&part, system, guard.output);
-    scan(guards, &guards.iter().map(signal).collect::<Vec<_>>())
+    let signals: Vec<_> = run.guards.iter().map(signal).collect();
+    run.budget.charge_watched_panels(signals.iter().map(|own| own.panels.len()).sum());
+    scan(&run.guards, &signals)
 }
 
 /// Whether the frequency of a driving function in use is swept on a piece that begins before `end`.
@@ -252,13 +254,13 @@ impl Method for Exact {
                     Self::count(&solution, share * end)?;
                 }
                 let mut part = share * run.t_end;
-                let (mut found, mut stop) = search(&solution, system, &run.guards, part);
+                let (mut found, mut stop) = search(&solution, system, run, part);
                 // What is far away lies in the rounding of a polynomial that reaches there.
                 while let Some(near) =
                     stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part)
                 {
                     part = BEYOND * near.time;
-                    let again = search(&solution, system, &run.guards, part);
+                    let again = search(&solution, system, run, part);
                     if again.1.is_none() {
                         break;
                     }

@@ -133,7 +133,7 @@ fn solve(
             let steps = found.statistics.accepted;
             return Err(SolveError::TooLarge { method: name, time: t_end, steps, bytes });
         }
-        if run.budget.charge_choice() {
+        if run.budget.charge_choices(interval.tried) {
             let work = run.budget.done();
             return Err(SolveError::BudgetSpent { method: name, time: t_end, work });
         }

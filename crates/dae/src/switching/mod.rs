@@ -32,6 +32,8 @@ pub struct ModeInterval {
     pub predicted: Option<PredictedEvent>,
     /// The time in the run \[s\] at which the interval ends, whatever its guards say.
     pub until: Option<f64>,
+    /// How many choices of phases were tried until these held.
+    pub tried: usize,
 }
 
 /// The end of an interval at guards, or at the time at which it had to end.

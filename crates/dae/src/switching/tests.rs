@@ -41,6 +41,7 @@ impl Walls {
             switches,
             predicted: None,
             until: None,
+            tried: 1,
         }
     }
 }

@@ -253,7 +253,10 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
                 "`{key}` is a measure of what? write `NAME.{key}{rest}`, as in \"head.hic15<=700\""
             ));
         }
-        return Err(format!("`{key}` is no measure; `dashpot list measures` shows them"));
+        return Err(format!(
+            "`{key}` is no measure; `dashpot list measures` shows them; a number of the scene has its bounds \
+             in `design --vary {key}=FROM..TO`"
+        ));
     };
     if let Some(rest) = by_word {
         let known = || STANDARDS.iter().map(|own| own.word);

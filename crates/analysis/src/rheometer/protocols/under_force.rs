@@ -11,6 +11,7 @@ use crate::{
     rheometer::{
         Figure, ProtocolKind, RheometerReport, Specimen, Tested,
         answer::Drive,
+        cycle::ROUNDING,
         history::{History, Instant},
         trial::Trial,
     },
@@ -165,14 +166,14 @@ impl LoadHoldUnload {
             Figure::of(name, "m", value).computed(computed)
         };
         let less = |one: Instant, other: Instant| {
-            trial.simulated(one).zip(trial.simulated(other)).map(|(one, other)| one - other)
+            trial.simulated(one).zip(trial.simulated(other)).map(|(one, other)| back(one, other))
         };
-        let back_at_once = (under.instantaneous - after.instantaneous)
-            + (under.delayed - after.delayed)
-            + (under.viscous - after.viscous);
-        let back_late = (after.instantaneous - last.instantaneous)
-            + (after.delayed - last.delayed)
-            + (after.viscous - last.viscous);
+        let back_at_once = back(under.instantaneous, after.instantaneous)
+            + back(under.delayed, after.delayed)
+            + back(under.viscous, after.viscous);
+        let back_late = back(after.instantaneous, last.instantaneous)
+            + back(after.delayed, last.delayed)
+            + back(after.viscous, last.viscous);
         vec![
             part(
                 "ε2, instantaneous part at the end of the hold",
@@ -191,4 +192,10 @@ impl LoadHoldUnload {
             Figure::of("stays for good", "m", last.viscous),
         ]
     }
+}
+
+/// What of a deformation comes back until another one; no more than their rounding is nothing.
+fn back(from: f64, to: f64) -> f64 {
+    let back = from - to;
+    if back.abs() <= ROUNDING * from.abs() { 0.0 } else { back }
 }

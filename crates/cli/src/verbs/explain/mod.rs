@@ -185,7 +185,7 @@ fn section(text: &mut Text, content: &Table) {
         return;
     }
     text.heading(&content.caption);
-    for line in fitted(&Table { caption: String::new(), ..content.clone() }, WIDTH - 2) {
+    for line in fitted(content, WIDTH - 2).1 {
         text.line(&format!("  {}", line.replace('\u{a0}', " ")));
     }
 }

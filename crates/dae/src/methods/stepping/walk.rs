@@ -171,6 +171,7 @@ impl Walk<'_> {
         if self.watch.is_idle() {
             return Ok(());
         }
+        self.run.budget.charge_watched_step(self.run.guards.len());
         let last = self.pieces.last_step();
         let mut signals = Vec::with_capacity(self.run.guards.len());
         let mut roundings = Vec::with_capacity(self.run.guards.len());

@@ -113,7 +113,9 @@ impl PhasedNetwork {
         }
         let (length, mut tried) = (self.own_length(state), phases.to_vec());
         let (mut refusal, mut spare) = (None, None);
+        let mut count = 0;
         loop {
+            count += 1;
             searches.iter().for_each(|search| search.enter(&mut tried));
             let verdict = self.verdict(&tried, state, &instant, (&searches, &criteria, length));
             let mut faults = Vec::new();
@@ -123,7 +125,7 @@ impl PhasedNetwork {
                         searches.iter().flat_map(|search| search.impacts.clone()).collect();
                     let switches = self.switches(time, phases, &choice.phases, &impacts);
                     if doubtful.is_empty() {
-                        return Ok((*choice, switches));
+                        return Ok((Choice { tried: count, ..*choice }, switches));
                     }
                     faults = doubtful;
                     spare.get_or_insert_with(|| (*choice, switches, state.clone()));
@@ -149,7 +151,7 @@ impl PhasedNetwork {
                         return Err(self.stuck(time, search, refusal));
                     }
                     state.clone_from(&own);
-                    return Ok((choice, switches));
+                    return Ok((Choice { tried: count, ..choice }, switches));
                 }
                 search.way += 1;
                 if search.way == instant.ways.len() {

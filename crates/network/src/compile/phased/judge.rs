@@ -24,6 +24,8 @@ pub(super) struct Choice {
     pub(super) levels: Vec<f64>,
     /// The exit that is reached next, if what has just parted comes back before it can be seen.
     pub(super) predicted: Option<PredictedEvent>,
+    /// How many choices were tried, with this one.
+    pub(super) tried: usize,
 }
 
 /// A part that does not stay in the phase that is tried.
@@ -153,7 +155,7 @@ impl PhasedNetwork {
         let next = returns.into_iter().flatten().map(|event| event.0);
         let predicted = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_followed);
         let phases = phases.to_vec();
-        let choice = Choice { mode, system, phases, unknowns, levels, predicted };
+        let choice = Choice { mode, system, phases, unknowns, levels, predicted, tried: 1 };
         Verdict::Holds(Box::new(choice), doubtful)
     }
 
@@ -322,10 +324,11 @@ impl Judge<'_> {
         let is_still = exit.watched == Watched::Deformation
             && self.on_level.contains(&(part, Watched::Rate, 0.0));
         let derivative = |order: usize| {
-            if order == 1 && is_still {
+            let (value, own) = motion.output(output, order);
+            // It came to rest, unless a load has jumped at that instant.
+            if order == 1 && is_still && value.abs() <= threshold.sqrt() * own {
                 return 0.0;
             }
-            let (value, own) = motion.output(output, order);
             // The state is rounded, and its rounding grows from one derivative to the next.
             let before = motion.output(output, order - 1).1;
             let size = own.max((before * motion.output(output, order + 1).1).sqrt());

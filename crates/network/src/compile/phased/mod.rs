@@ -236,7 +236,7 @@ impl PhasedNetwork {
 
     /// The interval that begins at `time` with these phases.
     fn interval(time: f64, choice: Choice, switches: Vec<Switch>) -> ModeInterval {
-        let Choice { mode, system, phases, unknowns, levels, predicted } = choice;
+        let Choice { mode, system, phases, unknowns, levels, predicted, tried } = choice;
         let mut system = System::clone(&system);
         system.initial = unknowns;
         let until = mode.kinks.get(mode.kinks.partition_point(|&kink| kink <= time)).copied();
@@ -257,6 +257,7 @@ impl PhasedNetwork {
             switches,
             predicted,
             until,
+            tried,
         }
     }
 
