@@ -99,7 +99,7 @@ fn every_law_under_every_shape_with_every_effect_is_run_or_refused_by_name() {
 }
 
 /// Work of a run of some hundred steps.
-const FEW_STEPS: u64 = 300_000;
+const FEW_STEPS: u64 = 2_000_000;
 /// Stiff pads that push and never pull.
 const STIFF: [&str; 5] = [
     "foam = { modulus = \"12 MPa\", plateau = \"0.5 MPa\", densification = \"0.15 MPa\", exponent = 2, \

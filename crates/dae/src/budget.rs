@@ -11,6 +11,8 @@ const OVERHEAD: u64 = 16;
 const MOST_UNKNOWNS: usize = 1000;
 /// Entries of a row that a factorisation meets at most: matrices of more unknowns are sparse.
 const DENSE: usize = 30;
+/// What it costs to read the signals of a step.
+const READ: u64 = 200;
 /// What a panel costs that follows a driving function within a step.
 const PANEL: u64 = 500;
 /// What it costs to look for a guard's level in a step, and in a panel of `exact`, which has a higher degree.
@@ -22,11 +24,11 @@ const CHOICE: u64 = 2000;
 /// Work that runs may be, and that they have been so far: counted, never timed, so that a run that ends
 /// by it repeats to the bit.
 ///
-/// A unit is what one unknown costs in one step, some 30 ns. A step costs 16 units and one for each
-/// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; a linear system about
-/// as much, a factorisation more for each entry; modes cost twice the cube of their number; a panel that
-/// follows a driving function within a step 500; each guard 16 in a step and
-/// 100 in a panel of `exact`; each choice of phases that is tried 2000. Copies share one account.
+/// A unit is what one unknown costs in one step, 20 to 60 ns. A step costs 16 units and one for each
+/// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; an accepted one 200 more, as it
+/// is read; a linear system about as much as a step, a factorisation more for each entry; modes cost twice the cube of
+/// their number; a panel that follows a driving function within a step 500; each guard 16 in a step and 100 in a panel
+/// of `exact`; each choice of phases that is tried 2000. Copies share one account.
 #[derive(Debug, Clone, Default)]
 pub struct Budget {
     account: Option<Arc<Account>>,
@@ -97,6 +99,11 @@ impl Budget {
     /// The work of a step of so many unknowns.
     pub fn of_step(unknowns: usize) -> u64 {
         OVERHEAD + unknowns.min(MOST_UNKNOWNS) as u64
+    }
+
+    /// Counts an accepted step, which is to be read.
+    pub(crate) fn charge_accepted(&self, unknowns: usize) -> bool {
+        self.charge(Self::of_step(unknowns) + READ)
     }
 
     /// Counts a step of so many unknowns, or a panel of so many modes.

@@ -17,7 +17,7 @@ use crate::{
 const FURTHER: u64 = 4;
 /// Work of a method with steps where there are more oscillations than `exact` follows, or than its budget is enough for:
 /// enough where they are not excited.
-pub(crate) const UNDEFINED: u64 = 2_000_000;
+pub(crate) const UNDEFINED: u64 = 5_000_000;
 /// Work of a method after one that has failed, or as much as that: some seconds.
 const AFTER_ANOTHER: u64 = 200_000_000;
 /// Lifetimes after which an oscillation takes no steps any more.
@@ -67,6 +67,10 @@ pub(crate) fn first_that_solves(
                     }
                     return Ok(Found { method, why, outcome });
                 };
+                // No other method makes the numbers smaller.
+                if matches!(error, RunError::BeyondRange) {
+                    return Err(error);
+                }
                 let lacks_work = matches!(outcome.obstacle, Some(SolveError::BudgetSpent { .. }));
                 short.extend(lacks_work.then(|| Arc::clone(&method)));
                 error

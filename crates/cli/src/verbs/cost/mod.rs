@@ -49,7 +49,7 @@ pub(crate) struct CostArguments {
     /// scene wants an accuracy of, else all].
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     measure: Vec<String>,
-    /// Most work of each solution, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
+    /// Most work of each solution, in units of a step of one unknown, 20 to 60 ns [default: 1e9, 20 to 60 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     budget: Option<u64>,
     /// How often each solution is repeated for its time [default: the more often, the fewer steps it has].

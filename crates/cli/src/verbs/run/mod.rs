@@ -138,7 +138,7 @@ pub(crate) struct RunArguments {
     /// Whether errors are estimated by further solutions; `off` is for bulk work.
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     estimate: Switch,
-    /// Most work of each run, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
+    /// Most work of each run, in units of a step of one unknown, 20 to 60 ns [default: 1e9, 20 to 60 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     budget: Option<u64>,
     /// Folder for CSV, JSON, SVG and HTML; it is made if need be.

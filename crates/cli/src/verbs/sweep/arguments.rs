@@ -83,7 +83,7 @@ pub(crate) struct SweepArguments {
     /// have those of their steps where they are instantiated, else of those near them [default: some; of a table, whose rows need not be near each other, all].
     #[arg(long, value_enum, value_name = "WHERE")]
     pub(super) estimate: Option<EstimatedPoints>,
-    /// Most work of each point, in units of a step of one unknown, some 30 ns [default: 1e9, some 30 s].
+    /// Most work of each point, in units of a step of one unknown, 20 to 60 ns [default: 1e9, 20 to 60 s].
     #[arg(long, value_name = "UNITS", value_parser = budget)]
     pub(super) budget: Option<u64>,
     /// How many threads share the points; the results are the same [default: one per core].

@@ -164,14 +164,23 @@ impl Walk<'_> {
         fine
     }
 
-    /// A run in which no unknown moves: there is none, or no time.
+    /// A run in which no unknown moves: there is none, or no time. Where a guard may end it, it is looked at in parts
+    /// that grow, so that what switches in each period of a long motion does not look at all of it each time.
     fn still(&mut self) -> Result<(), Stop> {
         let borders = self.borders(1);
+        let end = self.run.t_end / self.system.time_scale;
+        let first = self.system.shortest_time(end).filter(|_| !self.watch.is_idle());
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
             self.pieces.begin(self.system, span[0], &self.state);
-            self.pieces.rest(span[1] - span[0]);
-            self.report(span[1] * self.system.time_scale)?;
+            let (mut at, mut part) = (span[0], first.unwrap_or(f64::INFINITY));
+            while at < span[1] {
+                // A part that a rounding swallows would not end.
+                at = if at + part > at { (at + part).min(span[1]) } else { span[1] };
+                part *= 2.0;
+                self.pieces.rest(at - span[0]);
+                self.report(at * self.system.time_scale)?;
+            }
         }
         Ok(())
     }

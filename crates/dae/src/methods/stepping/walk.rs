@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Steps after which a run is given up.
-const MOST_STEPS: usize = 2_000_000;
+const MOST_STEPS: usize = 1_000_000;
 
 /// A step of no more than so many roundings of the time has no points of time inside.
 pub(super) const ROUNDINGS: f64 = 64.0;
@@ -158,7 +158,7 @@ impl Walk<'_> {
         }
         let further = self.pieces.panels(self.system).saturating_sub(1);
         let is_over = self.run.budget.charge_panels(further);
-        if self.run.budget.charge_step(self.system.len()) || is_over {
+        if self.run.budget.charge_accepted(self.system.len()) || is_over {
             let work = self.run.budget.done();
             return Err(SolveError::BudgetSpent { method: self.method, time, work }.into());
         }
