@@ -15,11 +15,11 @@ const DENSE: usize = 30;
 const READ: u64 = 200;
 /// What a panel costs that follows a driving function within a step.
 const PANEL: u64 = 500;
-/// What it costs to look for a guard's level in a step, and in a panel of `exact`, which has a higher degree.
+/// What it costs to look for a guard's level in a step, and in a panel, which has a higher degree.
 const WATCHED_STEP: u64 = 16;
-const WATCHED_PANEL: u64 = 100;
+const WATCHED_PANEL: u64 = 200;
 /// What a choice of phases costs that is tried, with the equations that follow from it.
-const CHOICE: u64 = 2000;
+const CHOICE: u64 = 4000;
 
 /// Work that runs may be, and that they have been so far: counted, never timed, so that a run that ends
 /// by it repeats to the bit.
@@ -27,8 +27,8 @@ const CHOICE: u64 = 2000;
 /// A unit is what one unknown costs in one step, 20 to 60 ns. A step costs 16 units and one for each
 /// unknown, up to 1000, and so do a rejected one and a panel of `exact` for its modes; an accepted one 200 more, as it
 /// is read; a linear system about as much as a step, a factorisation more for each entry; modes cost twice the cube of
-/// their number; a panel that follows a driving function within a step 500; each guard 16 in a step and 100 in a panel
-/// of `exact`; each choice of phases that is tried 2000. Copies share one account.
+/// their number; a panel that follows a driving function within a step 500; each guard 16 in a step and 200 in a
+/// panel; each choice of phases that is tried 4000. Copies share one account.
 #[derive(Debug, Clone, Default)]
 pub struct Budget {
     account: Option<Arc<Account>>,
@@ -137,7 +137,7 @@ impl Budget {
         self.charge(WATCHED_STEP * guards as u64)
     }
 
-    /// Counts so many panels of `exact`, each for its guard.
+    /// Counts so many panels, each for its guard.
     pub(crate) fn charge_watched_panels(&self, panels: usize) -> bool {
         self.charge(WATCHED_PANEL * panels as u64)
     }

@@ -95,7 +95,7 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
     settings.accuracy.default = wanted;
     let report = scene.network.solve_with(&settings).unwrap();
     assert_ne!(report.solver.method, "dop853");
-    assert!(report.solver.why.contains("`dop853` does not reach"), "{}", report.solver.why);
+    assert!(report.solver.why.contains("does not reach"), "{}", report.solver.why);
     let first = scene.network.solve_with(&settings.by_name("dop853").unwrap()).unwrap();
     assert!(admits(&first), "{:?}", first.solver);
     let pairs = report.measures.iter().zip(&first.measures);

@@ -69,23 +69,30 @@ impl ImpactLaw {
         (deformation - self.gap).max(0.0)
     }
 
-    /// The force while it is engaged: without a kink at the gap, so that what rests within the tolerance of it is not
-    /// at one.
-    fn engaged_force(&self, deformation: f64, rate: f64) -> f64 {
-        let factor = (1.0 + self.dissipation * rate).max(0.0);
+    /// Depth and factor of the rate while it is engaged. A law that is linear in the depth has no kink at the gap, so that
+    /// what rests within the tolerance of it is not at one; beyond it no rate counts.
+    fn engaged(&self, deformation: f64, rate: f64) -> (f64, f64) {
         let depth = deformation - self.gap;
-        self.power.value(depth.abs()).copysign(depth) * factor
+        if depth > 0.0 {
+            (depth, 1.0 + self.dissipation * rate)
+        } else {
+            (if self.power.exponent > 1.0 { 0.0 } else { depth }, 1.0)
+        }
+    }
+
+    fn engaged_force(&self, deformation: f64, rate: f64) -> f64 {
+        let (depth, factor) = self.engaged(deformation, rate);
+        self.power.value(depth.abs()).copysign(depth) * factor.max(0.0)
     }
 
     fn engaged_tangent(&self, deformation: f64, rate: f64) -> Tangent {
-        let depth = deformation - self.gap;
-        let factor = 1.0 + self.dissipation * rate;
+        let (depth, factor) = self.engaged(deformation, rate);
         if factor <= 0.0 {
             return Tangent::default();
         }
         Tangent {
             stiffness: self.power.slope(depth.abs()) * factor,
-            damping: self.power.value(depth.abs()).copysign(depth) * self.dissipation,
+            damping: self.power.value(depth.max(0.0)) * self.dissipation,
         }
     }
 

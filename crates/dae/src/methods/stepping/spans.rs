@@ -174,12 +174,15 @@ impl Walk<'_> {
             self.span = (span[0], span[1]);
             self.pieces.begin(self.system, span[0], &self.state);
             let (mut at, mut part) = (span[0], first.unwrap_or(f64::INFINITY));
-            while at < span[1] {
+            loop {
                 // A part that a rounding swallows would not end.
                 at = if at + part > at { (at + part).min(span[1]) } else { span[1] };
                 part *= 2.0;
                 self.pieces.rest(at - span[0]);
                 self.report(at * self.system.time_scale)?;
+                if at >= span[1] {
+                    break;
+                }
             }
         }
         Ok(())

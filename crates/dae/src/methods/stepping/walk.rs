@@ -172,6 +172,7 @@ impl Walk<'_> {
             return Ok(());
         }
         self.run.budget.charge_watched_step(self.run.guards.len());
+        self.run.budget.charge_watched_panels(further.saturating_mul(self.run.guards.len()));
         let last = self.pieces.last_step();
         let mut signals = Vec::with_capacity(self.run.guards.len());
         let mut roundings = Vec::with_capacity(self.run.guards.len());
