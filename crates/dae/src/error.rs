@@ -133,6 +133,25 @@ pub enum SolveError {
     },
 }
 
+impl SolveError {
+    /// The same with a time that is counted from so much earlier \[s\].
+    pub(crate) fn later(mut self, by: f64) -> Self {
+        match &mut self {
+            Self::StepTooSmall { time, .. }
+            | Self::NewtonFailed { time, .. }
+            | Self::Inconsistent { time, .. }
+            | Self::NotFinite { time, .. }
+            | Self::TooManySteps { time, .. }
+            | Self::BudgetSpent { time, .. }
+            | Self::TooLarge { time, .. }
+            | Self::Cancelled { time, .. }
+            | Self::Integrator { time, .. } => *time += by,
+            _ => {}
+        }
+        self
+    }
+}
+
 /// A time in seconds to four digits: only what is very small or large by a power of ten.
 pub(crate) fn seconds(time: f64) -> String {
     let rounded = format!("{time:.3e}").parse().unwrap_or(time);

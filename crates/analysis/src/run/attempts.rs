@@ -37,7 +37,8 @@ pub(crate) struct Found {
 ///
 /// Each but the last may take half of what is left of the budget, so that one that is stuck leaves something to the
 /// next; none more than `most`, and those after the first no more than a while, because what ends one method seldom
-/// lets another through: where the first one lacked work, that part of it which it came along the run. Errors: what became of the first one, and of the others.
+/// lets another through: where the first one lacked work, the share of its work that corresponds to how far it got.
+/// Errors: what became of the first one, and of the others.
 pub(crate) fn first_that_solves(
     task: &Task<'_>,
     run: &Run,
@@ -46,14 +47,14 @@ pub(crate) fn first_that_solves(
     observer: &mut dyn Observer,
 ) -> Result<Found, RunError> {
     let (mut first, mut tried): (Option<RunError>, Vec<&str>) = (None, Vec::new());
+    let mut of_first = 0;
     let mut short: Vec<Arc<dyn Method>> = Vec::new();
     loop {
         let share = if others.is_empty() { u64::MAX } else { half(&run.budget, task) };
         let granted = match &first {
             None => u64::MAX,
             Some(RunError::Solve(SolveError::BudgetSpent { time, .. })) => {
-                let part = time / run.t_end;
-                ALWAYS.max((part * run.budget.done() as f64) as u64)
+                ALWAYS.max(share_of(of_first, time / run.t_end))
             }
             Some(_) => AFTER_ANOTHER.max(run.budget.done()),
         };
@@ -68,7 +69,7 @@ pub(crate) fn first_that_solves(
                     return Ok(Found { method, why, outcome });
                 };
                 // No other method makes the numbers smaller.
-                if matches!(error, RunError::BeyondRange) {
+                if first.is_none() && matches!(error, RunError::BeyondRange) {
                     return Err(error);
                 }
                 let lacks_work = matches!(outcome.obstacle, Some(SolveError::BudgetSpent { .. }));
@@ -101,9 +102,21 @@ pub(crate) fn first_that_solves(
             RunError::EnergyLost { .. } | RunError::Slider { .. } => error.to_string(),
             error => format!("`{}` does not get through: {error}", method.name()),
         };
-        first.get_or_insert(error);
+        if first.is_none() {
+            (first, of_first) = (Some(error), run.budget.done());
+        }
         method = next;
     }
+}
+
+/// A part of some work.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "no more than the work"
+)]
+fn share_of(work: u64, part: f64) -> u64 {
+    (part.clamp(0.0, 1.0) * work as f64) as u64
 }
 
 fn half(budget: &Budget, task: &Task<'_>) -> u64 {

@@ -253,13 +253,17 @@ impl Drive<'_> {
         };
         let mut shifted =
             Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };
+        let start = self.start.high();
+        let later = |error: SolveError| error.later(start);
         let followed = match interval.predicted {
-            Some(predicted) => follow(interval, predicted, method, &run, &mut shifted)?,
+            Some(predicted) => {
+                follow(interval, predicted, method, &run, &mut shifted).map_err(later)?
+            }
             None => None,
         };
         let trajectory = match followed {
             Some(trajectory) => trajectory,
-            None => solve_to_size(interval, method, run, &mut shifted)?,
+            None => solve_to_size(interval, method, run, &mut shifted).map_err(later)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
         let t_end = if finished { last.into() } else { self.start + trajectory.t_end };

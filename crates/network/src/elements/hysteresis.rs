@@ -104,8 +104,8 @@ pub(super) fn exits(of: &(impl TwoCurves + ?Sized), phase: Phase) -> Vec<Exit> {
     }
 }
 
-/// One of the two curves. The first one goes on below zero, which it never reaches, so that what rests at a deformation
-/// within the tolerance is not at a kink.
+/// One of the two curves. The first one goes on below zero, where it is no more than by a tolerance, so that what rests
+/// at a deformation within the tolerance is not at a kink.
 #[derive(Debug)]
 struct Curve<H> {
     law: H,

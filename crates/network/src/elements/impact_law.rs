@@ -69,8 +69,8 @@ impl ImpactLaw {
         (deformation - self.gap).max(0.0)
     }
 
-    /// Depth and factor of the rate while it is engaged. A law that is linear in the depth has no kink at the gap, so that
-    /// what rests within the tolerance of it is not at one; beyond it no rate counts.
+    /// Depth and factor of the rate while it is engaged. At rest a law that is linear in the depth has no kink at the
+    /// gap, so that what rests within the tolerance of it is not at one; on the other side no rate counts.
     fn engaged(&self, deformation: f64, rate: f64) -> (f64, f64) {
         let depth = deformation - self.gap;
         if depth > 0.0 {

@@ -11,6 +11,9 @@ use super::{
 };
 use crate::phases::{Exit, Phase, Watched};
 
+/// Most of its terms that a quantity may be and count as none: what is its only term is there.
+const MOST_DOUBT: f64 = 0.5;
+
 /// A way of judging who stays.
 #[derive(Debug, Clone, Copy)]
 struct Way {
@@ -240,7 +243,7 @@ impl PhasedNetwork {
         criteria: &mut [Admissibility],
     ) {
         let Way { coarser, rebound, graze } = instant.ways[search.way];
-        let threshold = coarser * instant.threshold;
+        let threshold = (coarser * instant.threshold).min(MOST_DOUBT);
         for &body in &search.group.bodies {
             for &joint in &self.apart.all[body].joints {
                 state.velocity[joint] = instant.before.velocity[joint];

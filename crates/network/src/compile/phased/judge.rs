@@ -325,15 +325,14 @@ impl Judge<'_> {
             && self.on_level.contains(&(part, Watched::Rate, 0.0));
         let derivative = |order: usize| {
             let (value, own) = motion.output(output, order);
-            // It came to rest, unless a load has jumped at that instant.
-            if order == 1 && is_still && value.abs() <= threshold.sqrt() * own {
-                return 0.0;
-            }
             // The state is rounded, and its rounding grows from one derivative to the next.
             let before = motion.output(output, order - 1).1;
             let size = own.max((before * motion.output(output, order + 1).1).sqrt());
-            let is_none =
-                value.abs() <= threshold * size || (order == 1 && again && inward * value > 0.0);
+            // It has come to rest, unless a load has jumped at that instant.
+            let rests = order == 1 && is_still && value.abs() <= threshold.sqrt() * size;
+            let is_none = rests
+                || value.abs() <= threshold * size
+                || (order == 1 && again && inward * value > 0.0);
             if is_none { 0.0 } else { inward * value }
         };
         let Some(order) = (1..=ORDERS).find(|&order| derivative(order) != 0.0) else {
