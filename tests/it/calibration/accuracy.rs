@@ -110,7 +110,7 @@ fn another_method_is_tried_where_the_first_one_does_not_reach_it() {
         })
         .collect();
     println!("{errors:?}");
-    assert!(errors.iter().all(|&(own, first)| own <= first.max(wanted)), "{errors:?}");
+    assert!(errors.iter().all(|&(own, first)| own <= 1.5 * first.max(wanted)), "{errors:?}");
     assert!(errors.iter().any(|&(own, first)| own < first && first > wanted), "{errors:?}");
 }
 

@@ -140,7 +140,10 @@ impl<H: Hysteresis> Element for Curve<H> {
     }
 
     fn stored(&self, deformation: f64) -> f64 {
-        self.law.recoverable(deformation, self.deepest.unwrap_or(deformation))
+        match self.deepest {
+            None if deformation < 0.0 => self.law.loading().stored(deformation),
+            deepest => self.law.recoverable(deformation, deepest.unwrap_or(deformation)),
+        }
     }
 
     fn law(&self) -> Law {

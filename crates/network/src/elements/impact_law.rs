@@ -163,7 +163,7 @@ impl Element for Engaged {
     }
 
     fn stored(&self, deformation: f64) -> f64 {
-        self.impact.stored(deformation)
+        self.impact.power.integral(self.impact.engaged(deformation, 0.0).0.abs())
     }
 
     fn law(&self) -> Law {

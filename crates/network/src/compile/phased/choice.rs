@@ -11,9 +11,6 @@ use super::{
 };
 use crate::phases::{Exit, Phase, Watched};
 
-/// Most of its terms that a quantity may be and count as none: what is its only term is there.
-const MOST_DOUBT: f64 = 0.5;
-
 /// A way of judging who stays.
 #[derive(Debug, Clone, Copy)]
 struct Way {
@@ -124,6 +121,12 @@ impl PhasedNetwork {
             let mut faults = Vec::new();
             let failing: Vec<usize> = match verdict {
                 Verdict::Holds(choice, doubtful) => {
+                    // Where all is in doubt anything holds: also what goes where there is no system.
+                    let blind =
+                        |own: &&Search| instant.ways[own.way].coarser * instant.threshold >= 1.0;
+                    if let Some(own) = searches.iter().find(blind).filter(|_| refusal.is_some()) {
+                        return Err(self.stuck(time, own, refusal));
+                    }
                     let impacts: Vec<_> =
                         searches.iter().flat_map(|search| search.impacts.clone()).collect();
                     let switches = self.switches(time, phases, &choice.phases, &impacts);
@@ -243,7 +246,7 @@ impl PhasedNetwork {
         criteria: &mut [Admissibility],
     ) {
         let Way { coarser, rebound, graze } = instant.ways[search.way];
-        let threshold = (coarser * instant.threshold).min(MOST_DOUBT);
+        let threshold = coarser * instant.threshold;
         for &body in &search.group.bodies {
             for &joint in &self.apart.all[body].joints {
                 state.velocity[joint] = instant.before.velocity[joint];

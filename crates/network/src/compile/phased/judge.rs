@@ -329,7 +329,7 @@ impl Judge<'_> {
             let before = motion.output(output, order - 1).1;
             let size = own.max((before * motion.output(output, order + 1).1).sqrt());
             // It has come to rest, unless a load has jumped at that instant.
-            let rests = order == 1 && is_still && value.abs() <= threshold.sqrt() * size;
+            let rests = order == 1 && is_still && value.abs() <= threshold.sqrt() * own;
             let is_none = rests
                 || value.abs() <= threshold * size
                 || (order == 1 && again && inward * value > 0.0);
