@@ -1,4 +1,4 @@
-//! Two masses and three springs: the energy of a blow wanders from one to the other and back.
+//! Two masses and three springs: the energy of an impact wanders from one to the other and back.
 //!
 //! `cargo run --example two_mass_chain`
 #![allow(

@@ -136,3 +136,154 @@ fn what_rests_on_a_pad_takes_few_steps_however_small_its_deformation_is() {
     }
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
 }
+
+/// The first peak of a mass of 5 kg at 1 m/s on an element in series with a spring, by energy.
+fn peak_in_series(element: &dyn Element, stiffness: f64) -> f64 {
+    let (mut work, mut at, mut force) = (0.0, 0.0, element.force(0.0, 0.0));
+    let step = 1e-6;
+    loop {
+        let [middle, end] = [0.5, 1.0].map(|part| element.force(at + part * step, 0.0));
+        let more = step / 6.0 * (force + 4.0 * middle + end);
+        let missing = 2.5 - work - 0.5 * force * force / stiffness;
+        let gained = more + 0.5 * (end * end - force * force) / stiffness;
+        if gained >= missing {
+            return force + missing / gained * (end - force);
+        }
+        (work, at, force) = (work + more, at + step, end);
+    }
+}
+
+/// Between the two there is neither a mass nor a dashpot: the rate of the place follows from the balance alone.
+#[test]
+fn every_law_of_deformation_is_solved_in_series_with_a_spring() {
+    let mut count = 0;
+    for kind in ELEMENTS {
+        let element = kind.example().unwrap();
+        let bears = |at: f64| {
+            element.force(at, 0.0) > 0.0 && element.force(at, 1.0) == element.force(at, 0.0)
+        };
+        let jumps = element.force(1e-12, 0.0) > 1.0;
+        if jumps || ![1e-3, 5e-3].into_iter().all(bears) {
+            continue;
+        }
+        let pad =
+            write_kind(element.kind(), element.parameters(), &element.values(), Dimension::FORCE);
+        let scene = format!(
+            "[nodes]\nhead = {{ mass = 5, velocity = 1 }}\n[elements.pad]\nbetween = [\"head\", \"ground\"]\n\
+             series = [{{ {} }}, {{ spring = \"500 kN/m\" }}]\n[run]\nduration = 0.6\n",
+            pad.trim().replace('\n', ", ")
+        );
+        let read = read(&scene, &ReadOptions::default()).unwrap().value;
+        let report = read
+            .network
+            .solve_with(&read.settings("auto").unwrap())
+            .unwrap_or_else(|error| panic!("{scene}: {error}"));
+        let peak = report.measures.iter().find(|own| own.key == "pad.peak-force").unwrap();
+        let (value, error) = (peak.value.unwrap(), peak.error.unwrap());
+        let wanted = peak_in_series(&*element, 5e5);
+        assert!(
+            (value - wanted).abs() <= error + 1e-6 * wanted,
+            "{scene}: {value} ± {error}, {wanted}"
+        );
+        count += 1;
+    }
+    assert!(count > 8, "{count}");
+}
+
+/// A plate without mass on a pad of 100 kN/m that loads first, beside a spring of 1 kN/m: where it is follows from the load.
+#[test]
+fn a_pad_that_remembers_never_pulls_on_what_has_no_mass() {
+    let loads = [
+        ("[[\"0 s\", \"-20 N\"], [\"10 ms\", \"10 N\"]]", 10.0),
+        ("[[\"0 s\", \"0 N\"], [\"3 ms\", \"-20 N\"], [\"10 ms\", \"10 N\"]]", 10.0),
+        (
+            "[[\"0 s\", \"5 N\"], [\"4 ms\", \"5 N\"], [\"4 ms\", \"-20 N\"], [\"10 ms\", \"10 N\"]]",
+            10.0,
+        ),
+        (
+            "[[\"0 s\", \"0 N\"], [\"2 ms\", \"5 N\"], [\"5 ms\", \"5 N\"], [\"5 ms\", \"-20 N\"], [\"10 ms\", \"-9 N\"]]",
+            5.0,
+        ),
+    ];
+    for (points, most) in loads {
+        for method in ["bdf", "tr-bdf2", "esdirk34", "dop853"] {
+            let scene = format!(
+                "[nodes]\nplate = {{}}\nhead = {{ mass = 1 }}\n[elements]\n\
+                 pad = {{ between = [\"plate\", \"ground\"], hysteretic-table = {{ loading = [[0, 0], [0.01, 1e3]], \
+                 unloading = [[0.005, 0], [0.01, 1e3]] }} }}\n\
+                 weak = {{ between = [\"plate\", \"ground\"], spring = 1e3 }}\n\
+                 link = {{ between = [\"head\", \"ground\"], spring = 1e3 }}\n\
+                 [measures]\npad = [{{ kind = \"peak-force\", window = \"run\" }}]\n\
+                 weak = [{{ kind = \"peak-force\", window = \"run\" }}]\n\
+                 [loads.push]\non = \"plate\"\nforce = {{ table = {{ points = {points}, outside = \"hold\" }} }}\n\
+                 [run]\nduration = \"10 ms\"\n"
+            );
+            let read = read(&scene, &ReadOptions::default()).unwrap().value;
+            let report = read
+                .network
+                .solve_with(&read.settings(method).unwrap())
+                .unwrap_or_else(|error| panic!("{method} {scene}: {error}"));
+            for (key, wanted) in [("pad.peak-force", most / 1.01), ("weak.peak-force", 20.0)] {
+                let peak = report.measures.iter().find(|own| own.key == key).unwrap();
+                let (value, error) = (peak.value.unwrap(), peak.error.unwrap());
+                assert!(
+                    (value - wanted).abs() <= error + 1e-9,
+                    "{method} {scene}: {key} {value} ± {error}"
+                );
+            }
+        }
+    }
+}
+
+/// What has no mass goes where its load sends it, whether that jumps or takes a microsecond.
+#[test]
+fn a_jump_of_a_load_is_the_limit_of_a_ramp_where_there_is_no_mass() {
+    let levels = [[9.0, 4.0, 7.0, -6.0, 5.0], [30.0, 12.0, 18.0, -25.0, 28.0]];
+    let mut count = 0;
+    for pad in [STIFF[1], STIFF[2], "friction = \"8 N\""] {
+        for level in levels {
+            let end = |rise: f64, method: &str| {
+                let mut points = vec![String::from("[0, 0]"), String::from("[1e-3, 2]")];
+                let mut before = 2.0;
+                for (at, level) in (2..).zip(level) {
+                    let time = 1e-3 * f64::from(at);
+                    points.extend([
+                        format!("[{time:e}, {before:e}]"),
+                        format!("[{:e}, {level:e}]", time + rise),
+                    ]);
+                    before = level;
+                }
+                let scene = format!(
+                    "[nodes]\nplate = {{}}\nhead = {{ mass = 1 }}\n[elements]\n\
+                     pad = {{ between = [\"plate\", \"ground\"], {pad} }}\n\
+                     weak = {{ between = [\"plate\", \"ground\"], spring = 1e4 }}\n\
+                     link = {{ between = [\"head\", \"ground\"], spring = 1e3 }}\n\
+                     [measures]\nweak = [{{ kind = \"end-deformation\", window = \"run\" }}, \
+                     {{ kind = \"peak-force\", window = \"run\" }}]\n\
+                     [loads.push]\non = \"plate\"\nforce = {{ table = {{ points = [{}], outside = \"hold\" }} }}\n\
+                     [run]\nduration = \"8 ms\"\n",
+                    points.join(", ")
+                );
+                let read = read(&scene, &ReadOptions::default()).unwrap().value;
+                let report = read.network.solve_with(&read.settings(method).unwrap());
+                let report = report.unwrap_or_else(|error| panic!("{method} {scene}: {error}"));
+                ["weak.end-deformation", "weak.peak-force"].map(|key| {
+                    let own = report.measures.iter().find(|own| own.key == key).unwrap();
+                    (own.value.unwrap(), own.error.unwrap())
+                })
+            };
+            let ramp = end(1e-6, "bdf");
+            for method in ["bdf", "esdirk34", "dop853"] {
+                for ((jump, error), (slow, other)) in end(0.0, method).into_iter().zip(ramp) {
+                    let apart = (jump - slow).abs();
+                    assert!(
+                        apart <= error + other + 1e-9 * slow.abs(),
+                        "{pad}, {level:?} by {method}: {jump} for {slow}"
+                    );
+                    count += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(count, 36);
+}

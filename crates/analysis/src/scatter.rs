@@ -67,7 +67,7 @@ pub struct Chance {
     pub odds: Odds,
     /// Designs that keep it by something that is pressed further than is known of it.
     pub beyond: usize,
-    /// Designs that keep it in the impact, outside of which there is a harder blow.
+    /// Designs that keep it in the impact, outside of which there is a larger peak.
     pub outside: usize,
 }
 

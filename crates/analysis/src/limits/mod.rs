@@ -56,7 +56,7 @@ pub enum Reason {
     Beyond,
     /// It stands on something that is pressed to where its law does not hold, neither from above nor from below.
     NoLaw,
-    /// It keeps the limit in the impact, which a harder blow outside of it exceeds.
+    /// It keeps the limit in the impact, which a larger peak outside of it exceeds.
     Outside,
     /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
     OtherAxes,

@@ -1,4 +1,4 @@
-//! What a blow does to a head: the severity index, and the head injury criterion over intervals up to a cap, and
+//! What an impact does to a head: the severity index, and the head injury criterion over intervals up to a cap, and
 //! of at most 15 and 36 ms.
 
 use std::sync::Arc;

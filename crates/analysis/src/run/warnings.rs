@@ -44,7 +44,7 @@ pub(crate) struct Findings<'a> {
 
 /// Part by which a peak outside the impact must exceed that within to be worth a warning.
 const HARDER: f64 = 0.05;
-/// Measures of what a blow does to a body.
+/// Measures of what an impact does to a body.
 const INJURIES: [&str; 6] =
     [SeverityIndex::KIND, Hic15::KIND, Hic36::KIND, Hic::KIND, Clip3ms::KIND, Clip::KIND];
 

@@ -111,7 +111,7 @@ impl Floors {
     /// What no pad can beat of a measure that a run reports, with the whole travel or another one \[m\]; `None` where
     /// it is none of those that have a floor, or of another part of the run than the impact or all of it.
     ///
-    /// Of an impact that a harder blow follows it may be more than the impact itself has come to.
+    /// Of an impact that a harder one follows may be more than the impact itself has come to.
     pub fn of(&self, measure: &MeasureReport, travel: Option<f64>) -> Option<Floor> {
         let judged = self.judged(measure)?;
         match travel {

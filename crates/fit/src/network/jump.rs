@@ -5,7 +5,7 @@
 //! measured besides: the middle of the step between the two, with half of that for a standard deviation. With it the clock
 //! takes part in the fit, in which no sample changes sides. An error of at most one standard deviation adds no more to
 //! that of the estimate than its variance allows, so intervals hold the truth with at least what they state wherever in its
-//! step a blow falls. The deviation of what is even over the step, step/√12, holds that on the average alone: at its ends
+//! step an impact falls. The deviation of what is even over the step, step/√12, holds that on the average alone: at its ends
 //! it comes down to 82 in place of 95 of 100, where the rest of the curve tells as much of the clock.
 
 use serde::Serialize;
@@ -66,7 +66,7 @@ impl Jump {
 }
 
 impl Task<'_> {
-    /// Where the search for the clock of a test begins. For a blow where peaks stand together, or the jump of the curve is one of
+    /// Where the search for the clock of a test begins. For an impact where peaks stand together, or the jump of the curve is one of
     /// the steepest steps of the record, whichever leaves less of the rows. From one jump a search does not come to
     /// another.
     pub(super) fn start_of_clock(&self, test: usize, curve: &dyn Curve) -> f64 {
@@ -130,7 +130,7 @@ impl Task<'_> {
     }
 
     /// The largest jump of a curve behind its start, as where it is touched again: when it is on the clock of the record
-    /// \[s\], and its height. None of a test whose clock is right, or of one that is no blow.
+    /// \[s\], and its height. None of a test whose clock is right, or of one that is no impact.
     pub(super) fn later_jump(&self, test: usize, curve: &dyn Curve, own: Own) -> Option<Later> {
         self.places(test).shift.filter(|_| self.tests()[test].kind == Kind::Blow)?;
         let all = self.later_jumps(test, curve, own).into_iter().map(|own| own.1);

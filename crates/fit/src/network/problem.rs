@@ -39,7 +39,7 @@ pub struct Known {
 /// What the rows of a test are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Kind {
-    /// A blow: nothing acts before it, and when it comes in the record is not known.
+    /// An impact: nothing acts before it, and when it comes in the record is not known.
     #[default]
     Blow,
     /// What answers a history that was measured beside it, by a clock that is off by two steps at most.

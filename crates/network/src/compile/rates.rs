@@ -137,19 +137,19 @@ pub(super) struct ForceRate {
     half: f64,
 }
 
-/// Half the length of the secant in parts of the deformation at which sliders slip. What it leaves out of
-/// the slope is its square.
+/// Half the length of the secant in parts of the deformation at which sliders slip, or without them the law bears the
+/// size of its force. What it leaves out of the slope is its square.
 const NARROW: f64 = 1e-4;
 
 impl ForceRate {
-    /// Of the law of `primitive`, among whose neighbours there are sliders that slip.
-    pub(super) fn of(expansion: &Expansion, primitive: usize) -> Self {
+    /// Of the law of `primitive`, among whose neighbours there may be sliders that slip, and the size of its force \[N\].
+    pub(super) fn of(expansion: &Expansion, primitive: usize, size: f64) -> Self {
         let own = &expansion.primitives[primitive];
         let sliders = expansion
             .primitives
             .iter()
             .filter_map(|primitive| primitive.origin.phases()?.capacity());
-        let most = sliders.fold(0.0, f64::max);
+        let most = sliders.reduce(f64::max).unwrap_or(size);
         let force = |deformation: f64| own.element.force(deformation, 0.0).abs();
         let [stiffness, _] = own.slopes();
         let mut slips = most / stiffness;

@@ -77,7 +77,8 @@ pub(super) fn dimensionless(
             }
         };
         if let Some(law @ (Law::Force(primitive) | Law::ForceRate(primitive))) = draft.law {
-            let of_rate = matches!(law, Law::ForceRate(_));
+            // A force, where its rate is what the law gives.
+            let of_rate = matches!(law, Law::ForceRate(_)).then_some(draft.scale * time);
             let least = least_dashpots.get(&primitive).copied().unwrap_or(0.0);
             let (law, rows) = law_in(expansion, motion, (primitive, of_rate), least);
             let arguments = rows.map(|row| {
@@ -120,18 +121,21 @@ pub(super) fn dimensionless(
     })
 }
 
-/// The law of a primitive that is not linear, or of the rate of its force, and what it is a law of.
+/// The law of a primitive that is not linear, or of the rate of its force, whose size is then known \[N\], and what it is a
+/// law of.
 fn law_in(
     expansion: &Expansion,
     motion: &Motion,
-    (primitive, of_rate): (usize, bool),
+    (primitive, of_rate): (usize, Option<f64>),
     least: f64,
 ) -> (Arc<dyn Characteristic>, [Row; 2]) {
     let own = &expansion.primitives[primitive];
     let [_, damping] = own.slopes();
-    let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate);
-    let law: Arc<dyn Characteristic> =
-        if of_rate { Arc::new(ForceRate::of(expansion, primitive)) } else { law_of(own, least) };
+    let rate = motion.rate.get(primitive).filter(|_| damping > 0.0 || of_rate.is_some());
+    let law: Arc<dyn Characteristic> = match of_rate {
+        Some(size) => Arc::new(ForceRate::of(expansion, primitive, size)),
+        None => law_of(own, least),
+    };
     let rows = if own.is_reflected() {
         let sum = rate.map(|rate| motion.force.row(primitive).plus(damping, &rate));
         [sum.unwrap_or_default(), Row::default()]

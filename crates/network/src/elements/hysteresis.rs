@@ -49,6 +49,11 @@ macro_rules! two_curves {
             fn exits(&self, phase: crate::phases::Phase) -> Vec<crate::phases::Exit> {
                 crate::elements::hysteresis::exits(self, phase)
             }
+
+            fn less_deep(&self, phase: crate::phases::Phase) -> Option<usize> {
+                use crate::elements::hysteresis::{LOADING, UNLOADING};
+                (phase.index == LOADING).then_some(UNLOADING)
+            }
         }
 
         impl crate::elements::hysteresis::Hysteresis for $element {}

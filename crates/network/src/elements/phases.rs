@@ -71,6 +71,12 @@ pub trait Phases: Debug + Send + Sync {
     /// The ways out of a phase.
     fn exits(&self, phase: Phase) -> Vec<Exit>;
 
+    /// The phase in place of one that only goes deeper, where an event leaves an element less deep than it was. Within an
+    /// interval a rate tells that.
+    fn less_deep(&self, _phase: Phase) -> Option<usize> {
+        None
+    }
+
     /// The force \[N\] at which it slides, of a dry slider. Those between the same two places share a
     /// force in this proportion.
     fn capacity(&self) -> Option<f64> {

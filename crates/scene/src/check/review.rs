@@ -104,10 +104,10 @@ fn deep_stops(reading: &Reading<'_>, network: &Network) {
     }
 }
 
-/// A weight that adds more than this part to the energy of a blow is told of.
+/// A weight that adds more than this part to the energy of an impact is told of.
 const HEAVY: f64 = 0.02;
 
-/// What is left out of a drop, or of a blow that may go down, where gravity is off.
+/// What is left out of a drop, or of an impact that may go down, where gravity is off.
 pub(crate) fn weightless(network: &Network) -> Vec<ModelNote> {
     if network.effects().iter().any(|effect| effect.gravity().is_some()) {
         return Vec::new();

@@ -41,7 +41,7 @@ pub enum Remark {
     Weightless(f64),
     /// A node strikes with gravity off, where its weight is not little.
     WeightLeftOut {
-        /// What the weight adds over the thickness of the pad, if the blow goes down \[J\].
+        /// What the weight adds over the thickness of the pad, if the impact goes down \[J\].
         energy: f64,
         /// The same in parts of the energy with which it strikes.
         part: f64,

@@ -42,7 +42,7 @@ def solved(seed, stages, tolerance):
         inner = any(links[at].name == name for at in struck_links)
         pulls, is_impact, touch = scene.pulls[name], scene.is_impact(name), scene.touches.get(name)
         found |= measure.element(run, name, force, ends, inner, pulls, is_impact, touch)
-    # What is joined to a struck mass for good feels the blow, too.
+    # What is joined to a struck mass for good feels the impact, too.
     for n in scene.masses:
         found |= measure.node(run, scene.network, n, n in struck_nodes, cap if n == scene.masses[0] else None)
     return scene, scene.text(duration), found, run

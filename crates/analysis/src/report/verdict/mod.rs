@@ -173,8 +173,8 @@ pub struct Leaving<'r> {
 /// What is known of the errors of the values.
 #[derive(Debug, Clone, Default)]
 pub struct Reached<'r> {
-    /// The largest relative error, of values that are next to nothing relative to their kind;
-    /// infinite where some come and go with the tolerance.
+    /// The largest relative error of those that are not [`small`](Self::small); infinite where some come and go with the
+    /// tolerance.
     pub worst: Option<f64>,
     /// Values of which not even the first digit is known, for more than rounding, though the error is
     /// small beside others of their kind.
@@ -429,9 +429,10 @@ impl<'r> Found<'r> {
             measure_report.is_next_to_nothing() && !is_rounding
         };
         let is_nothing = |measure_report: &MeasureReport| measure_report.value == Some(0.0);
+        let (small, others): (Vec<_>, Vec<_>) = known.iter().copied().partition(is_small);
         Reached {
-            worst: self.0.worst_relative_error(),
-            small: known.iter().copied().filter(is_small).collect(),
+            worst: others.iter().filter_map(|own| own.relative_error()).reduce(f64::max),
+            small,
             is_unknown: {
                 let mut others = unknown.iter().filter(|own| !is_nothing(own)).peekable();
                 others.peek().is_some() && known.iter().all(|own| is_nothing(own))

@@ -205,7 +205,7 @@ impl Warning {
                 let peaks: Vec<String> = own.iter().map(Harder::to_string).collect();
                 write!(
                     f,
-                    "there is a harder blow outside the impact: {}; measures with `window = \
+                    "there is a larger peak outside the impact: {}; measures with `window = \
                      \"run\"` see it",
                     listed(&peaks)
                 )

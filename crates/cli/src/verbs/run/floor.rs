@@ -82,7 +82,7 @@ impl Told {
                         format!(", for it is pressed in by {}", quantity(deepest, "m", FEW))
                     }
                     _ if measure.window_wish != Some(WindowWish::Run) => {
-                        ", for a later blow is harder".to_owned()
+                        ", for a later impact is harder".to_owned()
                     }
                     _ => String::new(),
                 };

@@ -135,7 +135,7 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         let designs = judged.chance.map_or(0, |own| own.outside);
         let designs = counted(designs, "design");
         return Some(format!(
-            "in {designs} of the sample there is a harder blow outside of the impact"
+            "in {designs} of the sample there is a larger peak outside the impact"
         ));
     }
     let harder = run.warnings.iter().find_map(|own| match own {

@@ -242,7 +242,11 @@ impl Words<'_> {
             None if is_estimated && reached.is_unknown => {
                 "it is not known: no further solutions came about to tell errors".to_owned()
             }
-            None if is_estimated => "no figure has a size to be relative to".to_owned(),
+            None if is_estimated => {
+                let but = Self::exceptions(reached);
+                let no = if but.is_empty() { "no" } else { "no other" };
+                format!("{but}{no} figure has a size to be relative to")
+            }
             None => "errors were not estimated".to_owned(),
             Some(worst) if !worst.is_finite() => {
                 "some figures come and go with the tolerance; see the table".to_owned()

@@ -1,4 +1,4 @@
-//! Moduli, answers to a history and blows, which share numbers.
+//! Moduli, answers to a history and impacts, which share numbers.
 
 use dashpot_numerics::Stream;
 

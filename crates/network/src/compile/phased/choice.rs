@@ -294,10 +294,16 @@ impl PhasedNetwork {
             .collect();
         let names =
             if names.is_empty() { "the parts that switch".to_owned() } else { names.join(", ") };
+        let mut sides = search.open_parts().flat_map(|part| self.sides(self.parts[part]));
+        let what = if refusal.is_some() && sides.any(|side| self.apart.all[side].is_massless()) {
+            "what has no mass needs a dashpot beside a part that lets go of it, or a mass"
+        } else {
+            "where events meet at one instant, another method or tolerance, or a gap that is a little different, \
+             parts them"
+        };
         let why = refusal.map_or(String::new(), |reason| format!("; {reason}"));
         let reason = format!(
-            "no state of {names}, held, sliding or apart, agrees with the forces{why}; where events meet at \
-             one instant, another method or tolerance, or a gap that is a little different, parts them"
+            "no state of {names}, held, sliding or apart, agrees with the forces{why}; {what}"
         );
         SolveError::Switching { time, reason }
     }
@@ -332,8 +338,9 @@ impl PhasedNetwork {
             }
         }
         add(phase);
-        // A phase that was left may lead on at once, and one that was not may end with the others.
-        let in_reach = |exit: &Exit| exit.watched != Watched::Deformation || touching;
+        // A phase that was left may lead on at once, and one that was not may end with the others. What has no mass may jump.
+        let jumps = self.sides(at).into_iter().any(|side| self.apart.all[side].is_massless());
+        let in_reach = |exit: &Exit| exit.watched != Watched::Deformation || touching || jumps;
         let mut at = 0;
         let mut reached: Vec<Phase> =
             exits.iter().filter(|exit| in_reach(exit)).map(|exit| next(phase, exit)).collect();
@@ -342,7 +349,7 @@ impl PhasedNetwork {
             add(from);
             for exit in own.exits(from) {
                 let follows = next(from, &exit);
-                let level = (deformation - exit.level).abs() <= 1e-9 * exit.level.abs();
+                let level = jumps || (deformation - exit.level).abs() <= 1e-9 * exit.level.abs();
                 if (exit.watched != Watched::Deformation || level)
                     && reached.iter().all(|own| own.index != follows.index)
                 {

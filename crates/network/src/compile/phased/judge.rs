@@ -144,6 +144,7 @@ impl PhasedNetwork {
                 Admissible::No => faults.push(fault),
             }
         }
+        faults.extend(self.less_deep(phases, judge, &mode, &motion));
         if !faults.is_empty() {
             faults.dedup_by_key(|fault| fault.part);
             return Verdict::Fails(faults);
@@ -157,6 +158,26 @@ impl PhasedNetwork {
         let phases = phases.to_vec();
         let choice = Choice { mode, system, phases, unknowns, levels, predicted, tried: 1 };
         Verdict::Holds(Box::new(choice), doubtful)
+    }
+
+    /// The parts that an event leaves less deep than they were, in a phase that only goes deeper.
+    fn less_deep<'a>(
+        &'a self,
+        phases: &'a [Phase],
+        judge: &'a Judge<'_>,
+        mode: &'a Mode,
+        motion: &'a Derivatives,
+    ) -> impl Iterator<Item = Fault> + 'a {
+        let guards = mode.guards.iter().zip(&mode.of_guard);
+        guards.filter_map(move |(guard, &(part, _))| {
+            let at = self.parts[part];
+            let towards = self.phases_of(at)?.less_deep(phases[part])?;
+            let output = mode.system.outputs.at(guard.rate_of?);
+            let (value, size) = motion.output(output, 0);
+            let noise = judge.criteria[part].threshold * size.max(output.scale.abs());
+            let is_less = value < judge.state.deformation[at].max(0.0) - noise;
+            is_less.then_some(Fault { part, towards: Some(towards) })
+        })
     }
 
     /// The parts that would have to hold what is elsewhere, or what moves apart.

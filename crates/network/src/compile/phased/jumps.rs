@@ -42,6 +42,36 @@ pub(super) fn through_contacts(
     if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
+/// When loads and motions jump that move what has no mass \[s\], where a part watches its rate: a rate does not tell of it.
+pub(super) fn unseen(
+    network: &Network,
+    expansion: &Expansion,
+    (parts, apart): (&[usize], &Bodies),
+    duration: f64,
+) -> Vec<f64> {
+    let parts = parts.iter().map(|&at| &expansion.primitives[at]);
+    let watching: Vec<[usize; 2]> = parts
+        .filter(|own| own.needs_rate())
+        .map(|own| own.ends.map(|joint| apart.of_joint[joint]))
+        .collect();
+    let motions = network.nodes.iter().enumerate().filter_map(|(at, node)| match &node.support {
+        Support::Prescribed(motion) => Some((apart.of_joint[at], motion)),
+        _ => None,
+    });
+    let loads = network.loads.iter().map(|load| (apart.of_joint[load.node.index()], &load.force));
+    let loads = loads.filter(|&(body, _)| apart.all[body].is_massless());
+    let mut times = Vec::new();
+    for (body, waveform) in motions.chain(loads).filter(|_| !watching.is_empty()) {
+        let jumping = jumps(network, waveform, duration).into_iter();
+        let jumping: Vec<f64> = jumping.filter(|&time| time > 0.0 && time < duration).collect();
+        let moved = moved_at_once(expansion, apart, body);
+        if watching.iter().flatten().any(|&end| moved[end]) {
+            times.extend(jumping);
+        }
+    }
+    times
+}
+
 /// The bodies whose place may jump with that of `body`: those without mass that it is joined to.
 fn moved_at_once(expansion: &Expansion, apart: &Bodies, body: usize) -> Vec<bool> {
     let mut moved = vec![false; apart.all.len()];

@@ -53,6 +53,8 @@ pub struct PhasedNetwork {
     first: Vec<Phase>,
     /// The bodies where nothing that switches joins any.
     apart: Bodies,
+    /// When places jump that parts watch by their rates alone \[s\].
+    jumps: Vec<f64>,
     /// The scale of all speeds \[m/s\], by which their errors are judged.
     speed: f64,
     modes: Mutex<HashMap<Key, Arc<Mode>>>,
@@ -70,7 +72,7 @@ pub(super) struct Mode {
     guards: Vec<Guard>,
     /// Part and exit of each guard.
     of_guard: Vec<(usize, usize)>,
-    /// When a motion has a kink that the mass which is held to it does not follow \[s\].
+    /// When a motion has a kink that the mass which is held to it does not follow, or a place jumps \[s\].
     kinks: Vec<f64>,
 }
 
@@ -93,7 +95,9 @@ pub(super) fn compile(
     let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
     jumps::through_contacts(&network, &expansion, (&parts, &apart), duration)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
+    let jumps = jumps::unseen(&network, &expansion, (&parts, &apart), duration);
     let mut phased = PhasedNetwork {
+        jumps,
         network,
         expansion,
         parts,
@@ -198,7 +202,9 @@ impl PhasedNetwork {
     }
 
     fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { system, primitives, transfer, kinks, .. } = self.compiled(phases)?;
+        let Compiled { system, primitives, transfer, mut kinks, .. } = self.compiled(phases)?;
+        kinks.extend(&self.jumps);
+        kinks.sort_by(f64::total_cmp);
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
         let exits: Vec<Vec<Exit>> = self
             .parts
