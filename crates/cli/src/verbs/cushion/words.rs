@@ -1,9 +1,15 @@
 //! Cushion curves in words.
 
-use dashpot_analysis::{Missing, measures::STANDARD_GRAVITY};
+use std::collections::BTreeSet;
+
+use dashpot_analysis::{
+    Missing,
+    measures::{PeakAcceleration, STANDARD_GRAVITY},
+};
 use dashpot_design::cushion::{
     Assumed, Best, Curve, CushionPoint, Known, Passing, Place, Reach, Thinnest, Unmet,
 };
+use dashpot_network::parameters::Kind as _;
 use dashpot_plot::Table;
 use dashpot_units::percent;
 
@@ -410,7 +416,19 @@ pub(super) fn notes(drawn: &Drawn) -> Vec<String> {
     if drawn.batches.is_some() {
         notes.extend(batches_notes(drawn));
     }
+    notes.extend(not_judged(drawn));
     notes
+}
+
+/// The limits of the scene that cushion curves say nothing of.
+fn not_judged(drawn: &Drawn) -> Option<String> {
+    let judged = format!("{}.{}", drawn.cushion.platen.body, PeakAcceleration::KIND);
+    let others = drawn.scene.limits.iter().map(|limit| &limit.key).filter(|key| **key != judged);
+    let others: BTreeSet<String> = others.map(|key| format!("`{key}`")).collect();
+    let all = list(others).join(", ");
+    (!all.is_empty()).then(|| {
+        format!("not judged: the scene's limits on {all}; `dashpot run` judges one design")
+    })
 }
 
 /// What is to be known of bands.

@@ -183,7 +183,7 @@ impl PhasedNetwork {
             fired.iter().copied().filter(|exit| !suppressed.contains(exit)).collect();
         let touching = self.touching(state, phases, &left);
         let options = (0..self.parts.len())
-            .map(|part| self.options(part, state, phases[part], &left, touching[part]))
+            .map(|part| self.options(part, (state, time), phases[part], &left, touching[part]))
             .collect();
         let exits_of = |all: &[(usize, usize)]| -> Vec<(usize, Exit)> {
             let exit = |&(part, exit): &(usize, usize)| {
@@ -312,7 +312,7 @@ impl PhasedNetwork {
     fn options(
         &self,
         part: usize,
-        state: &State,
+        (state, time): (&State, f64),
         phase: Phase,
         fired: &[(usize, usize)],
         touching: bool,
@@ -339,7 +339,7 @@ impl PhasedNetwork {
         }
         add(phase);
         // A phase that was left may lead on at once, and one that was not may end with the others. What has no mass may jump.
-        let jumps = self.sides(at).into_iter().any(|side| self.apart.all[side].is_massless());
+        let jumps = self.jumps.contains(&time);
         let in_reach = |exit: &Exit| exit.watched != Watched::Deformation || touching || jumps;
         let mut at = 0;
         let mut reached: Vec<Phase> =

@@ -175,8 +175,10 @@ impl PhasedNetwork {
             let output = mode.system.outputs.at(guard.rate_of?);
             let (value, size) = motion.output(output, 0);
             let noise = judge.criteria[part].threshold * size.max(output.scale.abs());
-            let is_less = value < judge.state.deformation[at].max(0.0) - noise;
-            is_less.then_some(Fault { part, towards: Some(towards) })
+            let Phase { memory, .. } = phases[part];
+            let is_less = value < judge.state.deformation[at].max(memory) - noise;
+            let is_fault = is_less && !judge.at_level.contains(&(part, memory));
+            is_fault.then_some(Fault { part, towards: Some(towards) })
         })
     }
 
