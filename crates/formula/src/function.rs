@@ -1,40 +1,42 @@
 //! The functions of one number or two.
 
-/// A function that a formula may call, of pure numbers where not said otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// Square root; of any dimension whose half it can have.
-    Sqrt,
-    /// Size; of any dimension.
-    Abs,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// Logarithm to the base 10.
-    Log10,
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Tangent.
-    Tan,
-    /// Inverse sine.
-    Asin,
-    /// Inverse cosine.
-    Acos,
-    /// Inverse tangent.
-    Atan,
-    /// Hyperbolic sine.
-    Sinh,
-    /// Hyperbolic cosine.
-    Cosh,
-    /// Hyperbolic tangent.
-    Tanh,
-    /// The smaller one of two; of any dimension.
-    Min,
-    /// The larger one of two; of any dimension.
-    Max,
+dashpot_units::words! {
+    /// A function that a formula may call, of pure numbers where not said otherwise.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Function, pub fn word(self) {
+        /// Square root; of any dimension whose half it can have.
+        Sqrt = "sqrt",
+        /// Size; of any dimension.
+        Abs = "abs",
+        /// Exponential.
+        Exp = "exp",
+        /// Natural logarithm.
+        Ln = "ln",
+        /// Logarithm to the base 10.
+        Log10 = "log10",
+        /// Sine.
+        Sin = "sin",
+        /// Cosine.
+        Cos = "cos",
+        /// Tangent.
+        Tan = "tan",
+        /// Inverse sine.
+        Asin = "asin",
+        /// Inverse cosine.
+        Acos = "acos",
+        /// Inverse tangent.
+        Atan = "atan",
+        /// Hyperbolic sine.
+        Sinh = "sinh",
+        /// Hyperbolic cosine.
+        Cosh = "cosh",
+        /// Hyperbolic tangent.
+        Tanh = "tanh",
+        /// The smaller one of two; of any dimension.
+        Min = "min",
+        /// The larger one of two; of any dimension.
+        Max = "max",
+    }
 }
 
 impl Function {
@@ -57,28 +59,6 @@ impl Function {
         Self::Min,
         Self::Max,
     ];
-
-    /// Its word.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Sqrt => "sqrt",
-            Self::Abs => "abs",
-            Self::Exp => "exp",
-            Self::Ln => "ln",
-            Self::Log10 => "log10",
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Tan => "tan",
-            Self::Asin => "asin",
-            Self::Acos => "acos",
-            Self::Atan => "atan",
-            Self::Sinh => "sinh",
-            Self::Cosh => "cosh",
-            Self::Tanh => "tanh",
-            Self::Min => "min",
-            Self::Max => "max",
-        }
-    }
 
     /// The function of this word.
     pub fn of(word: &str) -> Option<Self> {

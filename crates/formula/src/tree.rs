@@ -31,13 +31,15 @@ pub(crate) enum Kind {
     Call(Function, Vec<Arc<Node>>),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Operator {
-    Plus,
-    Minus,
-    Times,
-    Over,
-    Power,
+dashpot_units::words! {
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum Operator, fn symbol(self) {
+        Plus = " + ",
+        Minus = " - ",
+        Times = " * ",
+        Over = " / ",
+        Power = "^",
+    }
 }
 
 impl PartialEq for Node {
@@ -145,16 +147,6 @@ impl Node {
 }
 
 impl Operator {
-    const fn symbol(self) -> &'static str {
-        match self {
-            Self::Plus => " + ",
-            Self::Minus => " - ",
-            Self::Times => " * ",
-            Self::Over => " / ",
-            Self::Power => "^",
-        }
-    }
-
     /// How tightly it binds.
     const fn rank(self) -> u8 {
         match self {

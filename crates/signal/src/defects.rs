@@ -27,161 +27,135 @@ const ROUNDING: f64 = 1e-9;
 /// Digits of numbers in messages.
 const DIGITS: usize = 3;
 
-/// What is wrong with a channel, or with how it is read. Values are in SI units, times in s.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum Defect {
-    /// Every sample is the same.
-    #[error("every sample is {}: nothing was measured", shown(*.value, *.unit))]
-    Flat { value: f64, unit: Dimension },
-    /// A reading at rest that is not taken off.
-    #[error(
-        "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
-        shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
-    )]
-    Offset { value: f64, error: f64, share: f64, unit: Dimension },
-    /// A record that begins with the pulse, and does not read zero at rest behind it.
-    #[error(
-        "nothing is at rest before its pulse, and behind it {level} is read ({part} of the peak): its zero may be off by \
-         that, which the errors hold; record some ms before the impact, or say what to take off, `--offset \"{level}\"`",
-        level = shown(*.value, *.unit), part = percent(*.share, 2)
-    )]
-    UnknownZero { value: f64, error: f64, share: f64, unit: Dimension },
-    /// A reading at rest that changes, before the pulse or from before it to behind it.
-    #[error(
-        "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
-        shown(*.change, *.unit), percent(*.share, 2)
-    )]
-    Drift { change: f64, share: f64, unit: Dimension },
-    /// The end of the range of a sensor or amplifier; of a resultant that of one of its axes.
-    #[error(
-        "{}is clipped at {}: {samples} equal samples at its largest value, from {} on; what depends on them is a bound",
-        .axis.map_or(String::new(), |axis| format!("its axis {} ", axis.letter())),
-        shown(*.level, *.unit), seconds(*.time)
-    )]
-    Clipped { axis: Option<Axis>, level: f64, samples: usize, time: f64, unit: Dimension },
-    /// The same value again and again within the pulse.
-    #[error(
-        "holds one value for {samples} samples within the pulse, from {} on: samples were dropped", seconds(*.time)
-    )]
-    Held { samples: usize, time: f64 },
-    /// Steps in which samples are missing.
-    #[error(
-        "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
-        if *.gaps == 1 { "place" } else { "places" }, seconds(*.time), seconds(*.longest), seconds(*.usual)
-    )]
-    Dropped { gaps: usize, time: f64, longest: f64, usual: f64 },
-    /// Single samples out of line.
-    #[error(
-        "{count} {} out of line with both neighbours, the first one at {}",
-        if *.count == 1 { "sample is" } else { "samples are" }, seconds(*.time)
-    )]
-    Spikes { count: usize, time: f64 },
-    /// Steps that differ.
-    #[error(
-        "its steps are uneven, from {} to {}; a line between samples takes them as they are",
-        seconds(.range.0), seconds(.range.1)
-    )]
-    UnevenSteps { range: (f64, f64) },
-    /// A resolution that is coarse beside the peak.
-    #[error("its values come in steps of {}, {} of the peak", shown(*.step, *.unit), percent(*.share, 2))]
-    Coarse { step: f64, share: f64, unit: Dimension },
-    /// A pulse of few samples.
-    #[error("its pulse has {samples} samples: the sampling rate is too low")]
-    FewSamples { samples: usize },
-    /// A record that begins or ends within the pulse.
-    #[error("the record begins or ends within the pulse: its numbers are those of a part")]
-    Cut,
-    /// Another impact than the one with the peak.
-    #[error(
-        "holds another impact, of {} at {}: severity index, clips and integrals are those of both, the contact time is that \
-         of the larger one; `--from` and `--to` read one alone",
-        shown(*.value, *.unit), seconds(*.time)
-    )]
-    SecondImpact { value: f64, time: f64, unit: Dimension },
-    /// A filter that smears the pulse beyond an end of the record, so that what stood there counts.
-    #[error(
-        "begins or ends where its filter still smears the pulse: samples change by {} with what stood beyond, which the \
-         errors hold (record some ms of rest)",
-        shown(*.change, *.unit)
-    )]
-    SmearedBeyond { change: f64, unit: Dimension },
-    /// A sampling rate below ten times the class of the filter.
-    #[error(
-        "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
-        quantity(*.rate, "Hz", DIGITS), quantity(*.least, "Hz", DIGITS)
-    )]
-    SlowForClass { rate: f64, class: f64, least: f64 },
-    /// A class that the standards do not name.
-    #[error("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")]
-    OddClass { class: f64 },
-    /// A peak that no impact test has: the unit may be another.
-    #[error("a peak of {} is none of an impact: is the unit right?", shown(*.peak, Dimension::ACCELERATION))]
-    OddPeak { peak: f64 },
-    /// A length of a pulse that no impact test has: the unit of time may be another.
-    #[error("a pulse of {} is none of an impact: is the unit of time right?", seconds(*.length))]
-    OddLength { length: f64 },
-    /// A body that comes back faster than it came, or from which more energy comes than was taken.
-    #[error(
-        "{}, which no impact does: what is integrated is a magnitude or has the wrong sign, or the impact begins elsewhere \
-         or at another velocity",
-        .restitution.map_or("gives back more energy than it takes".to_owned(), |own| format!(
-            "comes back with {} times the velocity with which it came", dashpot_units::significant(own, DIGITS)
-        ))
-    )]
-    GainsEnergy { restitution: Option<f64> },
-    /// A body that still moves in when the pulse is over.
-    #[error(
-        "does not stop: it still moves in at {} when the {} is over: the record, its unit or the velocity is wrong",
-        quantity(*.velocity, "m/s", DIGITS), if *.is_cut { "record" } else { "pulse" }
-    )]
-    DoesNotStop { velocity: f64, is_cut: bool },
-    /// An axis beside others that went through another filter class, so that they have no resultant.
-    #[error(
-        "went through another filter class than other axes of its location, and is no part of their resultant"
-    )]
-    OtherFilter,
-    /// Axes of a location one of which has two channels, so that it is not clear which one is part of the resultant.
-    #[error(
-        "is an axis, or beside one, that has two channels: no resultant is formed; `--channel` names one of each axis"
-    )]
-    AxisTwice,
-    /// An axis whose times, or whose peak, are not within those of the others.
-    #[error(
-        "was not recorded at the times at which the other axes of its location were: no resultant is formed"
-    )]
-    AxesApart,
-}
-
-impl Defect {
-    /// Its word for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Flat { .. } => "flat",
-            Self::Offset { .. } => "offset",
-            Self::UnknownZero { .. } => "unknown-zero",
-            Self::Drift { .. } => "drift",
-            Self::Clipped { .. } => "clipped",
-            Self::Held { .. } => "held",
-            Self::Dropped { .. } => "dropped-samples",
-            Self::Spikes { .. } => "spikes",
-            Self::UnevenSteps { .. } => "uneven-steps",
-            Self::Coarse { .. } => "coarse",
-            Self::FewSamples { .. } => "few-samples",
-            Self::Cut => "cut",
-            Self::SecondImpact { .. } => "second-impact",
-            Self::SmearedBeyond { .. } => "smeared-beyond",
-            Self::SlowForClass { .. } => "slow-for-class",
-            Self::OddClass { .. } => "odd-class",
-            Self::OddPeak { .. } => "odd-peak",
-            Self::OddLength { .. } => "odd-length",
-            Self::GainsEnergy { .. } => "gains-energy",
-            Self::DoesNotStop { .. } => "does-not-stop",
-            Self::OtherFilter => "other-filter",
-            Self::AxisTwice => "axis-twice",
-            Self::AxesApart => "axes-apart",
-        }
+dashpot_units::words! {
+    /// What is wrong with a channel, or with how it is read. Values are in SI units, times in s.
+    #[derive(Debug, Clone, Copy, PartialEq, Error)]
+    #[non_exhaustive]
+    #[expect(missing_docs, reason = "the messages say what the fields are")]
+    pub enum Defect, pub fn code(&self) {
+        /// Every sample is the same.
+        #[error("every sample is {}: nothing was measured", shown(*.value, *.unit))]
+        Flat { value: f64, unit: Dimension } = "flat",
+        /// A reading at rest that is not taken off.
+        #[error(
+            "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
+            shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
+        )]
+        Offset { value: f64, error: f64, share: f64, unit: Dimension } = "offset",
+        /// A record that begins with the pulse, and does not read zero at rest behind it.
+        #[error(
+            "nothing is at rest before its pulse, and behind it {level} is read ({part} of the peak): its zero may be \
+             off by that, which the errors hold; record some ms before the impact, or say what to take off, \
+             `--offset \"{level}\"`",
+            level = shown(*.value, *.unit), part = percent(*.share, 2)
+        )]
+        UnknownZero { value: f64, error: f64, share: f64, unit: Dimension } = "unknown-zero",
+        /// A reading at rest that changes, before the pulse or from before it to behind it.
+        #[error(
+            "its reading at rest drifts by {} ({} of the peak): integrals over it are wrong",
+            shown(*.change, *.unit), percent(*.share, 2)
+        )]
+        Drift { change: f64, share: f64, unit: Dimension } = "drift",
+        /// The end of the range of a sensor or amplifier; of a resultant that of one of its axes.
+        #[error(
+            "{}is clipped at {}: {samples} equal samples at its largest value, from {} on; what depends on them is \
+             a bound",
+            .axis.map_or(String::new(), |axis| format!("its axis {} ", axis.letter())),
+            shown(*.level, *.unit), seconds(*.time)
+        )]
+        Clipped { axis: Option<Axis>, level: f64, samples: usize, time: f64, unit: Dimension } = "clipped",
+        /// The same value again and again within the pulse.
+        #[error(
+            "holds one value for {samples} samples within the pulse, from {} on: samples were dropped", seconds(*.time)
+        )]
+        Held { samples: usize, time: f64 } = "held",
+        /// Steps in which samples are missing.
+        #[error(
+            "samples are missing in {gaps} {}, the first one at {}; the longest is {} beside steps of {}",
+            if *.gaps == 1 { "place" } else { "places" }, seconds(*.time), seconds(*.longest), seconds(*.usual)
+        )]
+        Dropped { gaps: usize, time: f64, longest: f64, usual: f64 } = "dropped-samples",
+        /// Single samples out of line.
+        #[error(
+            "{count} {} out of line with both neighbours, the first one at {}",
+            if *.count == 1 { "sample is" } else { "samples are" }, seconds(*.time)
+        )]
+        Spikes { count: usize, time: f64 } = "spikes",
+        /// Steps that differ.
+        #[error(
+            "its steps are uneven, from {} to {}; a line between samples takes them as they are",
+            seconds(.range.0), seconds(.range.1)
+        )]
+        UnevenSteps { range: (f64, f64) } = "uneven-steps",
+        /// A resolution that is coarse beside the peak.
+        #[error("its values come in steps of {}, {} of the peak", shown(*.step, *.unit), percent(*.share, 2))]
+        Coarse { step: f64, share: f64, unit: Dimension } = "coarse",
+        /// A pulse of few samples.
+        #[error("its pulse has {samples} samples: the sampling rate is too low")]
+        FewSamples { samples: usize } = "few-samples",
+        /// A record that begins or ends within the pulse.
+        #[error("the record begins or ends within the pulse: its numbers are those of a part")]
+        Cut = "cut",
+        /// Another impact than the one with the peak.
+        #[error(
+            "holds another impact, of {} at {}: severity index, clips and integrals are those of both, the contact time \
+             is that of the larger one; `--from` and `--to` read one alone",
+            shown(*.value, *.unit), seconds(*.time)
+        )]
+        SecondImpact { value: f64, time: f64, unit: Dimension } = "second-impact",
+        /// A filter that smears the pulse beyond an end of the record, so that what stood there counts.
+        #[error(
+            "begins or ends where its filter still smears the pulse: samples change by {} with what stood beyond, which \
+             the errors hold (record some ms of rest)",
+            shown(*.change, *.unit)
+        )]
+        SmearedBeyond { change: f64, unit: Dimension } = "smeared-beyond",
+        /// A sampling rate below ten times the class of the filter.
+        #[error(
+            "is sampled at {}, and CFC {class} wants at least {} (SAE J211-1)",
+            quantity(*.rate, "Hz", DIGITS), quantity(*.least, "Hz", DIGITS)
+        )]
+        SlowForClass { rate: f64, class: f64, least: f64 } = "slow-for-class",
+        /// A class that the standards do not name.
+        #[error("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")]
+        OddClass { class: f64 } = "odd-class",
+        /// A peak that no impact test has: the unit may be another.
+        #[error("a peak of {} is none of an impact: is the unit right?", shown(*.peak, Dimension::ACCELERATION))]
+        OddPeak { peak: f64 } = "odd-peak",
+        /// A length of a pulse that no impact test has: the unit of time may be another.
+        #[error("a pulse of {} is none of an impact: is the unit of time right?", seconds(*.length))]
+        OddLength { length: f64 } = "odd-length",
+        /// A body that comes back faster than it came, or from which more energy comes than was taken.
+        #[error(
+            "{}, which no impact does: what is integrated is a magnitude or has the wrong sign, or the impact begins \
+             elsewhere or at another velocity",
+            .restitution.map_or("gives back more energy than it takes".to_owned(), |own| format!(
+                "comes back with {} times the velocity with which it came", dashpot_units::significant(own, DIGITS)
+            ))
+        )]
+        GainsEnergy { restitution: Option<f64> } = "gains-energy",
+        /// A body that still moves in when the pulse is over.
+        #[error(
+            "does not stop: it still moves in at {} when the {} is over: the record, its unit or the velocity is wrong",
+            quantity(*.velocity, "m/s", DIGITS), if *.is_cut { "record" } else { "pulse" }
+        )]
+        DoesNotStop { velocity: f64, is_cut: bool } = "does-not-stop",
+        /// An axis beside others that went through another filter class, so that they have no resultant.
+        #[error(
+            "went through another filter class than other axes of its location, and is no part of their resultant"
+        )]
+        OtherFilter = "other-filter",
+        /// Axes of a location one of which has two channels, so that it is not clear which one is part of the resultant.
+        #[error(
+            "is an axis, or beside one, that has two channels: no resultant is formed; `--channel` names one of \
+             each axis"
+        )]
+        AxisTwice = "axis-twice",
+        /// An axis whose times, or whose peak, are not within those of the others.
+        #[error(
+            "was not recorded at the times at which the other axes of its location were: no resultant is formed"
+        )]
+        AxesApart = "axes-apart",
     }
 }
 

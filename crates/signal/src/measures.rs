@@ -20,66 +20,59 @@ const EXPONENT: f64 = 2.5;
 /// Rounding of a criterion, in parts of it.
 const ROUNDING: f64 = 1e-9;
 
-/// What is read off a channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Measure {
-    /// The largest magnitude.
-    Peak,
-    /// How long the magnitude stays at or above 5 % of the peak, about the peak \[s\].
-    ContactTime,
-    /// The integral of an acceleration over the whole record \[m/s\].
-    VelocityChange,
-    /// The integral of a force over the whole record \[N s\].
-    Impulse,
-    /// Head injury criterion over intervals up to 15 ms \[s\].
-    Hic15,
-    /// The same up to 36 ms.
-    Hic36,
-    /// The same over any interval.
-    Hic,
-    /// Gadd's severity index, `∫ (|a|/g0)^2.5 dt` \[s\].
-    SeverityIndex,
-    /// The largest magnitude that is exceeded for 3 ms, all times added up.
-    Clip3ms,
-    /// The same within one stretch.
-    Clip3msAtOnce,
-    /// The largest displacement since the impact began \[m\].
-    Displacement,
-    /// The speed at which a body comes back \[m/s\].
-    ReboundVelocity,
-    /// The part of the speed of approach with which it comes back.
-    Restitution,
-    /// The work done until the deepest point \[J\].
-    EnergyTaken,
-    /// What comes back of it \[J\].
-    EnergyReturned,
-    /// What does not \[J\].
-    EnergyAbsorbed,
+dashpot_units::words! {
+    /// What is read off a channel.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Measure, pub fn word(self) {
+        /// The largest magnitude.
+        Peak = "peak",
+        /// How long the magnitude stays at or above 5 % of the peak, about the peak \[s\].
+        ContactTime = "contact-time",
+        /// The integral of an acceleration over the whole record \[m/s\].
+        VelocityChange = "velocity-change",
+        /// The integral of a force over the whole record \[N s\].
+        Impulse = "impulse",
+        /// Head injury criterion over intervals up to 15 ms \[s\].
+        Hic15 = "hic15",
+        /// The same up to 36 ms.
+        Hic36 = "hic36",
+        /// The same over any interval.
+        Hic = "hic",
+        /// Gadd's severity index, `∫ (|a|/g0)^2.5 dt` \[s\].
+        SeverityIndex = "severity-index",
+        /// The largest magnitude that is exceeded for 3 ms, all times added up.
+        Clip3ms = "clip-3ms",
+        /// The same within one stretch.
+        Clip3msAtOnce = "clip-3ms-at-once",
+        /// The largest displacement since the impact began \[m\].
+        Displacement = "peak-displacement",
+        /// The speed at which a body comes back \[m/s\].
+        ReboundVelocity = "rebound-velocity",
+        /// The part of the speed of approach with which it comes back.
+        Restitution = "coefficient-of-restitution",
+        /// The work done until the deepest point \[J\].
+        EnergyTaken = "energy-taken",
+        /// What comes back of it \[J\].
+        EnergyReturned = "energy-returned",
+        /// What does not \[J\].
+        EnergyAbsorbed = "energy-absorbed",
+    }
 }
 
-/// Why a measure has no value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Reason {
-    /// The record is shorter than the time of a clip.
-    #[error("the record is too short")]
-    RecordTooShort,
-    /// It is clipped, and nothing bounds it.
-    #[error("clipped, which leaves it open")]
-    Clipped,
-    /// The body does not stop, so that it does not come back.
-    #[error("the body does not stop")]
-    DoesNotStop,
-}
-
-impl Reason {
-    /// Its word for programs.
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::RecordTooShort => "record-too-short",
-            Self::Clipped => "clipped",
-            Self::DoesNotStop => "does-not-stop",
-        }
+dashpot_units::words! {
+    /// Why a measure has no value.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+    pub enum Reason, pub fn code(self) {
+        /// The record is shorter than the time of a clip.
+        #[error("the record is too short")]
+        RecordTooShort = "record-too-short",
+        /// It is clipped, and nothing bounds it.
+        #[error("clipped, which leaves it open")]
+        Clipped = "clipped",
+        /// The body does not stop, so that it does not come back.
+        #[error("the body does not stop")]
+        DoesNotStop = "does-not-stop",
     }
 }
 
@@ -140,28 +133,6 @@ impl Measure {
             _ => dimension == Dimension::ACCELERATION,
         };
         Self::READ.into_iter().filter(is_one)
-    }
-
-    /// Its word, the last part of its key.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Peak => "peak",
-            Self::ContactTime => "contact-time",
-            Self::VelocityChange => "velocity-change",
-            Self::Impulse => "impulse",
-            Self::Hic15 => "hic15",
-            Self::Hic36 => "hic36",
-            Self::Hic => "hic",
-            Self::SeverityIndex => "severity-index",
-            Self::Clip3ms => "clip-3ms",
-            Self::Clip3msAtOnce => "clip-3ms-at-once",
-            Self::Displacement => "peak-displacement",
-            Self::ReboundVelocity => "rebound-velocity",
-            Self::Restitution => "coefficient-of-restitution",
-            Self::EnergyTaken => "energy-taken",
-            Self::EnergyReturned => "energy-returned",
-            Self::EnergyAbsorbed => "energy-absorbed",
-        }
     }
 
     /// What it is in, of a channel of this dimension.

@@ -14,6 +14,7 @@ mod nearest;
 mod parse;
 mod shown;
 mod symbols;
+mod worded;
 
 pub use dimension::{Dimension, si_unit};
 pub use exponent::Exponent;

@@ -22,67 +22,57 @@ pub struct Limit {
     pub unit: Option<Unit>,
 }
 
-/// What a measure may be, in its SI unit; the bound itself is within.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bound {
-    /// At most this much.
-    Max(f64),
-    /// At least this much.
-    Min(f64),
+dashpot_units::words! {
+    /// What a measure may be, in its SI unit; the bound itself is within.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub enum Bound, pub fn word(self) {
+        /// At most this much.
+        Max(f64) = "max",
+        /// At least this much.
+        Min(f64) = "min",
+    }
 }
 
-/// What is known of a limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Judgement {
-    /// It is kept, however the error lies.
-    Pass,
-    /// It is exceeded, however the error lies.
-    Fail,
-    /// The value does not tell.
-    Undecided(Reason),
+dashpot_units::words! {
+    /// What is known of a limit.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Judgement, pub fn word(self) {
+        /// It is kept, however the error lies.
+        Pass = "pass",
+        /// It is exceeded, however the error lies.
+        Fail = "fail",
+        /// The value does not tell.
+        Undecided(Reason) = "undecided",
+    }
 }
 
-/// Why the value of a measure does not tell whether a limit is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reason {
-    /// Its error reaches across the bound, or is not known.
-    Error,
-    /// There is none.
-    NoValue,
-    /// The run ends before it is whole.
-    Cut,
-    /// It keeps the limit, but stands on something that is pressed further than is known of it: beyond the points
-    /// of its law, or beyond its thickness.
-    Beyond,
-    /// It stands on something that is pressed to where its law does not hold, neither from above nor from below.
-    NoLaw,
-    /// It keeps the limit in the impact, which a larger peak outside of it exceeds.
-    Outside,
-    /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
-    OtherAxes,
-    /// It keeps the limit, but the record is clipped: the measure was larger.
-    Clipped,
-    /// It keeps the limit at the means of numbers with scatter, but too few of the designs do.
-    Scatter,
+dashpot_units::words! {
+    /// Why the value of a measure does not tell whether a limit is kept.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Reason, pub fn word(self) {
+        /// Its error reaches across the bound, or is not known.
+        Error = "error",
+        /// There is none.
+        NoValue = "no-value",
+        /// The run ends before it is whole.
+        Cut = "cut",
+        /// It keeps the limit, but stands on something that is pressed further than is known of it: beyond the points
+        /// of its law, or beyond its thickness.
+        Beyond = "beyond-known",
+        /// It stands on something that is pressed to where its law does not hold, neither from above nor from below.
+        NoLaw = "no-law",
+        /// It keeps the limit in the impact, which a larger peak outside of it exceeds.
+        Outside = "harder-outside",
+        /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
+        OtherAxes = "other-axes",
+        /// It keeps the limit, but the record is clipped: the measure was larger.
+        Clipped = "clipped",
+        /// It keeps the limit at the means of numbers with scatter, but too few of the designs do.
+        Scatter = "scatter",
+    }
 }
 
 impl Reason {
-    /// Its word: `error`, `no-value`, `cut`, `beyond-known`, `no-law`, `harder-outside`, `other-axes`,
-    /// `clipped` or `scatter`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::NoValue => "no-value",
-            Self::Cut => "cut",
-            Self::Beyond => "beyond-known",
-            Self::NoLaw => "no-law",
-            Self::Outside => "harder-outside",
-            Self::OtherAxes => "other-axes",
-            Self::Clipped => "clipped",
-            Self::Scatter => "scatter",
-        }
-    }
-
     /// The one that counts of several: that no law holds, else the first.
     pub(crate) fn first(mut all: impl Iterator<Item = Self> + Clone) -> Option<Self> {
         all.clone().find(|own| *own == Self::NoLaw).or_else(|| all.next())
@@ -108,15 +98,6 @@ impl Judgement {
             (own, _) => own,
         }
     }
-
-    /// Its word: `pass`, `fail` or `undecided`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Undecided(_) => "undecided",
-        }
-    }
 }
 
 impl Bound {
@@ -124,14 +105,6 @@ impl Bound {
     pub fn level(self) -> f64 {
         match self {
             Self::Max(level) | Self::Min(level) => level,
-        }
-    }
-
-    /// Its word: `max` or `min`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Max(_) => "max",
-            Self::Min(_) => "min",
         }
     }
 

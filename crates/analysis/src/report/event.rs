@@ -1,9 +1,9 @@
 //! What happens in a run, as data.
 
-use std::fmt;
+use serde::{Serialize, Serializer, ser::SerializeMap};
+use thiserror::Error;
 
-use serde::{Serialize, Serializer, ser::SerializeStruct};
-
+use super::serialized::serialized;
 use crate::{Stop, wording::quantity};
 
 /// Something that happened.
@@ -20,74 +20,86 @@ pub struct EventReport {
     pub stops: bool,
 }
 
-/// What happens in a run.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Event {
-    /// A condition that was asked for is met.
-    Condition {
-        /// The condition.
-        stop: Stop,
-        /// SI unit of its level.
-        unit: &'static str,
-    },
-    /// The force of an element that nothing lets part turns to tension.
-    Tension {
-        /// The element.
-        element: String,
-    },
-    /// A node meets an element from which it can part.
-    Meets {
-        /// The node, and the element.
-        sides: [String; 2],
-        /// Whether they have met before.
-        again: bool,
-        /// The impulse with which they meet, where masses do.
-        collision: Option<Collision>,
-    },
-    /// A node leaves an element.
-    Leaves {
-        /// The node, and the element.
-        sides: [String; 2],
-    },
-    /// A contact closes.
-    Closes {
-        /// The contact.
-        contact: String,
-        /// Whether it has been closed before.
-        again: bool,
-        /// The impulse with which masses meet in it, where they do.
-        collision: Option<Collision>,
-    },
-    /// A contact opens.
-    Opens {
-        /// The contact.
-        contact: String,
-    },
-    /// Masses meet in a contact that was closed, or that opens again at once.
-    Impact {
-        /// The contact.
-        contact: String,
-        /// The impulse.
-        collision: Collision,
-    },
-    /// An impulse goes through a closed contact.
-    PassesOn {
-        /// The contact.
-        contact: String,
-        /// The impulse \[N s\].
-        impulse: f64,
-    },
-    /// Another element changes its phase.
-    Phase {
-        /// The element, or its path.
-        part: String,
-        /// Word for the phase.
-        phase: &'static str,
-    },
+dashpot_units::words! {
+    /// What happens in a run.
+    #[derive(Debug, Clone, PartialEq, Error)]
+    pub enum Event, pub fn code(&self) {
+        /// A condition that was asked for is met.
+        #[error("{}", .stop.text(unit))]
+        Condition {
+            /// The condition.
+            stop: Stop,
+            /// SI unit of its level.
+            unit: &'static str,
+        } = "condition-met",
+        /// The force of an element that nothing lets part turns to tension.
+        #[error("{element} force turns to tension")]
+        Tension {
+            /// The element.
+            element: String,
+        } = "tension",
+        /// A node meets an element from which it can part.
+        #[error("{} meets the {}{}", .sides[0], .sides[1], met(*.again, *.collision))]
+        Meets {
+            /// The node, and the element.
+            sides: [String; 2],
+            /// Whether they have met before.
+            again: bool,
+            /// The impulse with which they meet, where masses do.
+            collision: Option<Collision>,
+        } = "meets",
+        /// A node leaves an element.
+        #[error("{} leaves the {}", .sides[0], .sides[1])]
+        Leaves {
+            /// The node, and the element.
+            sides: [String; 2],
+        } = "leaves",
+        /// A contact closes.
+        #[error("{contact} closes{}", met(*.again, *.collision))]
+        Closes {
+            /// The contact.
+            contact: String,
+            /// Whether it has been closed before.
+            again: bool,
+            /// The impulse with which masses meet in it, where they do.
+            collision: Option<Collision>,
+        } = "closes",
+        /// A contact opens.
+        #[error("{contact} opens")]
+        Opens {
+            /// The contact.
+            contact: String,
+        } = "opens",
+        /// Masses meet in a contact that was closed, or that opens again at once.
+        #[error("{contact}: {collision}")]
+        Impact {
+            /// The contact.
+            contact: String,
+            /// The impulse.
+            collision: Collision,
+        } = "impact",
+        /// An impulse goes through a closed contact.
+        #[error("{contact} passes on {}", quantity(*.impulse, "N s"))]
+        PassesOn {
+            /// The contact.
+            contact: String,
+            /// The impulse \[N s\].
+            impulse: f64,
+        } = "passes-on",
+        /// Another element changes its phase.
+        #[error("{part}: {phase}")]
+        Phase {
+            /// The element, or its path.
+            part: String,
+            /// Word for the phase.
+            phase: &'static str,
+        } = "phase",
+    }
 }
 
 /// An impulse with which masses meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("impact of {}, which loses {}", quantity(*.impulse, "N s"), quantity(*.lost, "J"))]
 pub struct Collision {
     /// The impulse \[N s\].
     pub impulse: f64,
@@ -95,63 +107,15 @@ pub struct Collision {
     pub lost: f64,
 }
 
-impl Event {
-    /// What kind of event it is, in one word that stays the same.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Condition { .. } => "condition-met",
-            Self::Tension { .. } => "tension",
-            Self::Meets { .. } => "meets",
-            Self::Leaves { .. } => "leaves",
-            Self::Closes { .. } => "closes",
-            Self::Opens { .. } => "opens",
-            Self::Impact { .. } => "impact",
-            Self::PassesOn { .. } => "passes-on",
-            Self::Phase { .. } => "phase",
-        }
-    }
-}
+serialized!(EventReport, own => {
+    "time" => own.time,
+    "error" => own.error,
+    "what" => own.what.to_string(),
+    "code" => own.what.code(),
+});
 
-impl Serialize for EventReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut object = serializer.serialize_struct("EventReport", 4)?;
-        object.serialize_field("time", &self.time)?;
-        object.serialize_field("error", &self.error)?;
-        object.serialize_field("what", &self.what.to_string())?;
-        object.serialize_field("code", self.what.code())?;
-        object.end()
-    }
-}
-
-impl fmt::Display for Collision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (impulse, lost) = (quantity(self.impulse, "N s"), quantity(self.lost, "J"));
-        write!(f, "impact of {impulse}, which loses {lost}")
-    }
-}
-
-impl fmt::Display for Event {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let told = |collision: &Option<Collision>| {
-            collision.map_or(String::new(), |collision| format!(": {collision}"))
-        };
-        let again = |again: &bool| if *again { " again" } else { "" };
-        match self {
-            Self::Condition { stop, unit } => write!(f, "{}", stop.text(unit)),
-            Self::Tension { element } => write!(f, "{element} force turns to tension"),
-            Self::Meets { sides: [node, element], again: is_again, collision } => {
-                write!(f, "{node} meets the {element}{}{}", again(is_again), told(collision))
-            }
-            Self::Leaves { sides: [node, element] } => write!(f, "{node} leaves the {element}"),
-            Self::Closes { contact, again: is_again, collision } => {
-                write!(f, "{contact} closes{}{}", again(is_again), told(collision))
-            }
-            Self::Opens { contact } => write!(f, "{contact} opens"),
-            Self::Impact { contact, collision } => write!(f, "{contact}: {collision}"),
-            Self::PassesOn { contact, impulse } => {
-                write!(f, "{contact} passes on {}", quantity(*impulse, "N s"))
-            }
-            Self::Phase { part, phase } => write!(f, "{part}: {phase}"),
-        }
-    }
+/// How masses meet, behind what else is said of that.
+fn met(again: bool, collision: Option<Collision>) -> String {
+    let again = if again { " again" } else { "" };
+    again.to_owned() + &collision.map_or(String::new(), |own| format!(": {own}"))
 }

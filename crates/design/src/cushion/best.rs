@@ -23,28 +23,18 @@ const ABOVE: f64 = 4.0;
 /// Stresses of a range that nobody gave.
 const USUAL: u16 = 40;
 
-/// Where the least peak of a curve lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// Within the range of stresses.
-    Within,
-    /// At its lower end: it may be less below.
-    Low,
-    /// At its upper end: it may be less above.
-    High,
-    /// Where what is known of the cushion ends.
-    EndOfKnown,
-}
-
-impl Place {
-    /// Its word: `within`, `low`, `high` or `end-of-known`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Within => "within",
-            Self::Low => "low",
-            Self::High => "high",
-            Self::EndOfKnown => "end-of-known",
-        }
+dashpot_units::words! {
+    /// Where the least peak of a curve lies.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Place, pub fn word(self) {
+        /// Within the range of stresses.
+        Within = "within",
+        /// At its lower end: it may be less below.
+        Low = "low",
+        /// At its upper end: it may be less above.
+        High = "high",
+        /// Where what is known of the cushion ends.
+        EndOfKnown = "end-of-known",
     }
 }
 
@@ -57,25 +47,16 @@ pub struct Best {
     pub place: Place,
 }
 
-/// How a range of stresses that keep a limit ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reach {
-    /// The peak exceeds the limit beyond.
-    Limit,
-    /// What was looked at ends.
-    Range,
-    /// What is known of the cushion ends.
-    Known,
-}
-
-impl Reach {
-    /// Its word: `limit`, `range` or `known`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Limit => "limit",
-            Self::Range => "range",
-            Self::Known => "known",
-        }
+dashpot_units::words! {
+    /// How a range of stresses that keep a limit ends.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Reach, pub fn word(self) {
+        /// The peak exceeds the limit beyond.
+        Limit = "limit",
+        /// What was looked at ends.
+        Range = "range",
+        /// What is known of the cushion ends.
+        Known = "known",
     }
 }
 

@@ -18,25 +18,16 @@ const FIRST: f64 = 1e-9;
 /// Halvings of the ratio of two times.
 const HALVINGS: usize = 60;
 
-/// Whether a compression is one that the model knows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Trust {
-    /// It is within the times of the model.
-    Within,
-    /// The model has no branch so slow: the cushion stands still in it, a real one creeps on.
-    BeyondTimes,
-    /// The cushion is pressed by more than its thickness.
-    PressedThrough,
-}
-
-impl Trust {
-    /// Its word: `within`, `beyond-times` or `pressed-through`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Within => "within",
-            Self::BeyondTimes => "beyond-times",
-            Self::PressedThrough => "pressed-through",
-        }
+dashpot_units::words! {
+    /// Whether a compression is one that the model knows.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Trust, pub fn word(self) {
+        /// It is within the times of the model.
+        Within = "within",
+        /// The model has no branch so slow: the cushion stands still in it, a real one creeps on.
+        BeyondTimes = "beyond-times",
+        /// The cushion is pressed by more than its thickness.
+        PressedThrough = "pressed-through",
     }
 }
 

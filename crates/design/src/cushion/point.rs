@@ -1,35 +1,25 @@
 //! A drop, and how far it is known.
 
-/// How far a point is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Known {
-    /// All of it is within what is known of the cushion.
-    Whole,
-    /// The cushion meets its stop.
-    OnStop,
-    /// Masses meet, as on a rigid stop, so that the peak is infinite.
-    Infinite,
-    /// A measured law is followed beyond its last point.
-    BeyondLaw,
-    /// The cushion is pressed by more than its thickness.
-    PressedThrough,
-    /// The drop could not be solved.
-    Unsolved,
+dashpot_units::words! {
+    /// How far a point is known.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Known, pub fn word(self) {
+        /// All of it is within what is known of the cushion.
+        Whole = "whole",
+        /// The cushion meets its stop.
+        OnStop = "on-stop",
+        /// Masses meet, as on a rigid stop, so that the peak is infinite.
+        Infinite = "infinite",
+        /// A measured law is followed beyond its last point.
+        BeyondLaw = "beyond-law",
+        /// The cushion is pressed by more than its thickness.
+        PressedThrough = "pressed-through",
+        /// The drop could not be solved.
+        Unsolved = "unsolved",
+    }
 }
 
 impl Known {
-    /// Its word: `whole`, `on-stop`, `infinite`, `beyond-law`, `pressed-through` or `unsolved`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Whole => "whole",
-            Self::OnStop => "on-stop",
-            Self::Infinite => "infinite",
-            Self::BeyondLaw => "beyond-law",
-            Self::PressedThrough => "pressed-through",
-            Self::Unsolved => "unsolved",
-        }
-    }
-
     /// Whether the peak may be used: a stop is a part of the scene, what lies beyond a law or a thickness is not.
     pub fn is_usable(self) -> bool {
         matches!(self, Self::Whole | Self::OnStop)

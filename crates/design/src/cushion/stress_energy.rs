@@ -24,25 +24,16 @@ const COLLAPSED: f64 = 0.12;
 /// … and an exponential says what it predicts where that leaves no more than this.
 const EXPONENTIAL: f64 = 0.12;
 
-/// Whether curves are one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Collapse {
-    /// They are, and the exponential goes through them.
-    Holds,
-    /// They are, but of another form than the exponential.
-    OtherForm,
-    /// They are not: the force does not depend on the deformation alone.
-    Fails,
-}
-
-impl Collapse {
-    /// Its word: `holds`, `other-form` or `fails`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::OtherForm => "other-form",
-            Self::Fails => "fails",
-        }
+dashpot_units::words! {
+    /// Whether curves are one.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Collapse, pub fn word(self) {
+        /// They are, and the exponential goes through them.
+        Holds = "holds",
+        /// They are, but of another form than the exponential.
+        OtherForm = "other-form",
+        /// They are not: the force does not depend on the deformation alone.
+        Fails = "fails",
     }
 }
 

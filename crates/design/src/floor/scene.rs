@@ -63,25 +63,16 @@ pub enum NoFloor {
     Unsolved(#[from] RunError),
 }
 
-/// What bounds a travel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TravelOf {
-    /// The thickness of the pad.
-    Thickness,
-    /// Its stop.
-    Stop,
-    /// A limit on its deformation.
-    Limit,
-}
-
-impl TravelOf {
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Thickness => "thickness",
-            Self::Stop => "stop",
-            Self::Limit => "limit",
-        }
+dashpot_units::words! {
+    /// What bounds a travel.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum TravelOf, pub fn word(self) {
+        /// The thickness of the pad.
+        Thickness = "thickness",
+        /// Its stop.
+        Stop = "stop",
+        /// A limit on its deformation.
+        Limit = "limit",
     }
 }
 

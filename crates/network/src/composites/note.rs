@@ -6,34 +6,26 @@ use dashpot_units::format_short;
 
 use crate::parameters::Dimension;
 
-/// What is to be said of a model made from a description.
-#[derive(Debug, Clone, PartialEq)]
-pub enum CompositeNote {
-    /// So many Kelvin elements stand for a fibre.
-    CreepKept {
-        /// How many.
-        elements: usize,
-        /// Within which part of itself they keep the creep.
-        error: f64,
-        /// From when to when \[s\].
-        range: [f64; 2],
-        /// Within which part of itself one element less could keep it at best; `None` where that is not proved.
-        one_less: Option<f64>,
-    },
-    /// The terms of a list are taken in rising order of time.
-    Reordered {
-        /// The branch that is the fastest.
-        fastest: &'static str,
-    },
-}
-
-impl CompositeNote {
-    /// What kind of note it is, in one word that stays the same.
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::CreepKept { .. } => "creep-kept",
-            Self::Reordered { .. } => "reordered",
-        }
+dashpot_units::words! {
+    /// What is to be said of a model made from a description.
+    #[derive(Debug, Clone, PartialEq)]
+    pub enum CompositeNote, pub fn code(&self) {
+        /// So many Kelvin elements stand for a fibre.
+        CreepKept {
+            /// How many.
+            elements: usize,
+            /// Within which part of itself they keep the creep.
+            error: f64,
+            /// From when to when \[s\].
+            range: [f64; 2],
+            /// Within which part of itself one element less could keep it at best; `None` where that is not proved.
+            one_less: Option<f64>,
+        } = "creep-kept",
+        /// The terms of a list are taken in rising order of time.
+        Reordered {
+            /// The branch that is the fastest.
+            fastest: &'static str,
+        } = "reordered",
     }
 }
 

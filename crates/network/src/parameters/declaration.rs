@@ -318,21 +318,16 @@ macro_rules! choices {
             $($(#[$note:meta])* $variant:ident = $word:literal),* $(,)?
         }
     ) => {
-        $(#[$attribute])*
-        $vis enum $name {
-            $($(#[$note])* $variant),*
+        $crate::parameters::words! {
+            $(#[$attribute])*
+            $vis enum $name, pub fn word(self) {
+                $($(#[$note])* $variant = $word),*
+            }
         }
 
         impl $name {
             /// Its words.
             pub const WORDS: &'static [&'static str] = &[$($word),*];
-
-            /// The word of this one.
-            pub const fn word(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $word),*
-                }
-            }
         }
 
         impl $crate::parameters::Field for $name {

@@ -6,7 +6,7 @@ mod range;
 use std::{any::Any, borrow::Cow, fmt, sync::Arc};
 
 pub use dashpot_formula::{Formula, Variable};
-pub use dashpot_units::Dimension;
+pub use dashpot_units::{Dimension, words};
 use thiserror::Error;
 
 pub(crate) use declaration::described_as;

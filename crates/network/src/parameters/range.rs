@@ -4,51 +4,37 @@ use dashpot_units::{Dimension, exact_quantity};
 
 use super::InvalidParameter;
 
-/// The numbers that a parameter may have; all of them are finite. Those that are never negative are 0 or at
-/// least 2.2·10⁻³⁰⁸: the reciprocal of less is beyond double precision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Range {
-    /// Any.
-    Finite,
-    /// Any, of an angle \[rad\]; other numbers are no angles.
-    Angle,
-    /// All but 0.
-    NotZero,
-    /// ≥ 0.
-    NonNegative,
-    /// > 0.
-    Positive,
-    /// ≥ 1.
-    AtLeastOne,
-    /// From 0 to 1.
-    Part,
-    /// Above 0 and ≤ 1.
-    PositivePart,
-    /// ≥ 0 and below 1.
-    PartBelowOne,
-    /// A whole number from 2 to 100 000.
-    Count,
-    /// A temperature > 0 \[K\].
-    AboveAbsoluteZero,
+dashpot_units::words! {
+    /// The numbers that a parameter may have; all of them are finite. Those that are never negative are 0 or at
+    /// least 2.2·10⁻³⁰⁸: the reciprocal of less is beyond double precision.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Range, pub fn words(self) {
+        /// Any.
+        Finite = "finite",
+        /// Any, of an angle \[rad\]; other numbers are no angles.
+        Angle = "finite",
+        /// All but 0.
+        NotZero = "finite and not zero",
+        /// ≥ 0.
+        NonNegative = "zero or positive, and finite",
+        /// > 0.
+        Positive = "positive and finite",
+        /// ≥ 1.
+        AtLeastOne = "1 or more, and finite",
+        /// From 0 to 1.
+        Part = "from 0 to 1",
+        /// Above 0 and ≤ 1.
+        PositivePart = "above 0, and 1 at most",
+        /// ≥ 0 and below 1.
+        PartBelowOne = "zero or positive, and below 1",
+        /// A whole number from 2 to 100 000.
+        Count = "a whole number from 2 to 100000",
+        /// A temperature > 0 \[K\].
+        AboveAbsoluteZero = "above absolute zero, and finite",
+    }
 }
 
 impl Range {
-    /// The range in words.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Finite | Self::Angle => "finite",
-            Self::NotZero => "finite and not zero",
-            Self::NonNegative => "zero or positive, and finite",
-            Self::Positive => "positive and finite",
-            Self::AtLeastOne => "1 or more, and finite",
-            Self::Part => "from 0 to 1",
-            Self::PositivePart => "above 0, and 1 at most",
-            Self::PartBelowOne => "zero or positive, and below 1",
-            Self::Count => "a whole number from 2 to 100000",
-            Self::AboveAbsoluteZero => "above absolute zero, and finite",
-        }
-    }
-
     /// Whether a number is in it.
     pub fn contains(self, number: f64) -> bool {
         number.is_finite()

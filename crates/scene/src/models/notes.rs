@@ -4,6 +4,7 @@ use std::{cell::RefCell, fmt};
 
 use dashpot_network::{composites::CompositeNote, parameters::Dimension};
 use dashpot_units::format_short;
+use thiserror::Error;
 
 use crate::{curves::CurveChange, tables::LeftOut};
 
@@ -18,60 +19,113 @@ pub struct ModelNote {
     pub until: Option<f64>,
 }
 
-/// What is to be said about a model or a part of a scene.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Remark {
-    /// How near a model comes to its description.
-    Composite {
-        /// Its remark.
-        note: CompositeNote,
-        /// By what its times are multiplied afterwards, where they are.
-        factor: Option<f64>,
-    },
-    /// The times of a model are multiplied.
-    Shift {
-        /// Word for what does so.
-        word: &'static str,
-        /// The factor.
-        factor: f64,
-    },
-    /// Several things have the name of the model.
-    SharedName(String),
-    /// A node is dropped from a height \[m\], and has no weight.
-    Weightless(f64),
-    /// A node strikes with gravity off, where its weight is not little.
-    WeightLeftOut {
-        /// What the weight adds over the thickness of the pad, if the impact goes down \[J\].
-        energy: f64,
-        /// The same in parts of the energy with which it strikes.
-        part: f64,
-    },
-    /// The curve of a law is not that of the rows of its file.
-    Curve(CurveChange),
-    /// The area of a pad is constant where a standard loads one that grows.
-    ConstantArea {
-        /// The standard.
-        standard: &'static str,
-        /// Radius \[m\] of the dome on which the pad lies.
-        dome: f64,
-    },
-    /// Lines of a file are no part of its table.
-    LeftOut(LeftOut),
-    /// Lines of a record behind its largest deformation are no part of a law of one branch.
-    WayBack {
-        /// Of which parameter it is the curve.
-        curve: &'static str,
-        /// The first and the last line, from 1.
-        lines: [usize; 2],
-    },
-    /// What a record reads at rest was taken off.
-    RestRemoved(RestRemoved),
-    /// A pad gives back all that it takes up, where what is asked for hangs on what it loses.
-    Elastic,
-    /// Gravity \[m/s²\] pulls away from the support.
-    Upward(f64),
-    /// The mean of a number with scatter, as it is written, stands for it.
-    Mean(String),
+dashpot_units::words! {
+    /// What is to be said about a model or a part of a scene.
+    #[derive(Debug, Clone, PartialEq, Error)]
+    pub enum Remark, fn kind(&self) {
+        /// How near a model comes to its description.
+        #[error("{note}{}", .factor.map_or(String::new(), |own| format!(", before its times are multiplied by {own:.3e}")))]
+        Composite {
+            /// Its remark.
+            note: CompositeNote,
+            /// By what its times are multiplied afterwards, where they are.
+            factor: Option<f64>,
+        } = "composite",
+        /// The times of a model are multiplied.
+        #[error("`{word}` multiplies its times by {factor:.3e}")]
+        Shift {
+            /// Word for what does so.
+            word: &'static str,
+            /// The factor.
+            factor: f64,
+        } = "shift",
+        /// Several things have the name of the model.
+        #[error(
+            "the name is also that of another; `models.{0}`, `materials.{0}` and \
+             `elements.{0}` tell them apart"
+        )]
+        SharedName(String) = "shared-name",
+        /// A node is dropped from a height \[m\], and has no weight.
+        #[error(
+            "dropped from {} with gravity off: it begins at touch with the speed of the fall, \
+             weighs nothing, and never falls back on what it has left; `gravity = {{}}` under \
+             [effects] gives it its weight",
+            format_short(*.0, Dimension::LENGTH, 4)
+        )]
+        Weightless(f64) = "weightless",
+        /// A node strikes with gravity off, where its weight is not little.
+        #[error(
+            "gravity is off: if it moves downwards, its weight does work of {} over the thickness, {} \
+             the energy; `gravity = {{}}` under [effects] counts it",
+            format_short(*.energy, Dimension::ENERGY, 3),
+            match *.part {
+                ..10.0 => format!("{:.1} % of", 100.0 * .part),
+                10.0..1e3 => format!("{:.0} times", .part),
+                _ => "far more than".to_owned(),
+            }
+        )]
+        WeightLeftOut {
+            /// What the weight adds over the thickness of the pad, if the impact goes down \[J\].
+            energy: f64,
+            /// The same in parts of the energy with which it strikes.
+            part: f64,
+        } = "weight-left-out",
+        /// The curve of a law is not that of the rows of its file.
+        #[error("{0}")]
+        Curve(CurveChange) = "curve",
+        /// The area of a pad is constant where a standard loads one that grows.
+        #[error(
+            "{standard} lays it on a dome with the radius {radius}: the area that is loaded grows, and a \
+             constant `area` may be wrong by a factor; `pressed-by = {{ shape = \"dome\", radius = \
+             \"{radius}\", diameter = … }}` in its place follows it",
+            radius = format_short(*.dome, Dimension::LENGTH, 4)
+        )]
+        ConstantArea {
+            /// The standard.
+            standard: &'static str,
+            /// Radius \[m\] of the dome on which the pad lies.
+            dome: f64,
+        } = "constant-area",
+        /// Lines of a file are no part of its table.
+        #[error("{0}")]
+        LeftOut(LeftOut) = "lines-left-out",
+        /// Lines of a record behind its largest deformation are no part of a law of one branch.
+        #[error(
+            "{}: `{curve}` is a curve of loading alone",
+            match .lines {
+                [first, last] if first == last => {
+                    format!("line {first}, after the largest deformation, is left out")
+                }
+                [first, last] => {
+                    format!("lines {first} to {last}, after the largest deformation, are left out")
+                }
+            }
+        )]
+        WayBack {
+            /// Of which parameter it is the curve.
+            curve: &'static str,
+            /// The first and the last line, from 1.
+            lines: [usize; 2],
+        } = "way-back-left-out",
+        /// What a record reads at rest was taken off.
+        #[error("{0}")]
+        RestRemoved(RestRemoved) = "rest-removed",
+        /// A pad gives back all that it takes up, where what is asked for hangs on what it loses.
+        #[error(
+            "its law is elastic: the peak counts, but rebound, impulse, energy and HIC do not show what a real \
+             foam loses; `hysteretic-foam` and `hysteretic-table` lose it"
+        )]
+        Elastic = "elastic",
+        /// Gravity \[m/s²\] pulls away from the support.
+        #[error(
+            "{} pulls away from the support; positive is towards it",
+            format_short(*.0, Dimension::ACCELERATION, 4)
+        )]
+        Upward(f64) = "upward",
+        /// The mean of a number with scatter, as it is written, stands for it.
+        #[error("the mean of {0} stands for it here")]
+        Mean(String) = "mean",
+    }
 }
 
 /// What a record reads at rest, which was taken off.
@@ -102,87 +156,7 @@ impl Remark {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Composite { note, .. } => note.code(),
-            Self::Shift { .. } => "shift",
-            Self::SharedName(_) => "shared-name",
-            Self::Weightless(_) => "weightless",
-            Self::WeightLeftOut { .. } => "weight-left-out",
-            Self::Curve(_) => "curve",
-            Self::ConstantArea { .. } => "constant-area",
-            Self::LeftOut(_) => "lines-left-out",
-            Self::WayBack { .. } => "way-back-left-out",
-            Self::RestRemoved(_) => "rest-removed",
-            Self::Elastic => "elastic",
-            Self::Upward(_) => "upward",
-            Self::Mean(_) => "mean",
-        }
-    }
-}
-
-impl fmt::Display for Remark {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Composite { note, factor: None } => write!(f, "{note}"),
-            Self::Composite { note, factor: Some(factor) } => {
-                write!(f, "{note}, before its times are multiplied by {factor:.3e}")
-            }
-            Self::Shift { word, factor } => {
-                write!(f, "`{word}` multiplies its times by {factor:.3e}")
-            }
-            Self::SharedName(name) => write!(
-                f,
-                "the name is also that of another; `models.{name}`, `materials.{name}` and \
-                 `elements.{name}` tell them apart"
-            ),
-            Self::Weightless(height) => write!(
-                f,
-                "dropped from {} with gravity off: it begins at touch with the speed of the fall, \
-                 weighs nothing, and never falls back on what it has left; `gravity = {{}}` under \
-                 [effects] gives it its weight",
-                format_short(*height, Dimension::LENGTH, 4)
-            ),
-            Self::WeightLeftOut { energy, part } => write!(
-                f,
-                "gravity is off: if it moves downwards, its weight does work of {} over the thickness, {} \
-                 the energy; `gravity = {{}}` under [effects] counts it",
-                format_short(*energy, Dimension::ENERGY, 3),
-                match *part {
-                    ..10.0 => format!("{:.1} % of", 100.0 * part),
-                    10.0..1e3 => format!("{part:.0} times"),
-                    _ => "far more than".to_owned(),
-                }
-            ),
-            Self::Curve(change) => write!(f, "{change}"),
-            Self::ConstantArea { standard, dome } => {
-                let radius = format_short(*dome, Dimension::LENGTH, 4);
-                write!(
-                    f,
-                    "{standard} lays it on a dome with the radius {radius}: the area that is loaded grows, and a \
-                     constant `area` may be wrong by a factor; `pressed-by = {{ shape = \"dome\", radius = \
-                     \"{radius}\", diameter = … }}` in its place follows it"
-                )
-            }
-            Self::LeftOut(lines) => write!(f, "{lines}"),
-            Self::WayBack { curve, lines: [first, last] } => {
-                let lines = match last - first {
-                    0 => format!("line {first}, after the largest deformation, is left out"),
-                    _ => format!(
-                        "lines {first} to {last}, after the largest deformation, are left out"
-                    ),
-                };
-                write!(f, "{lines}: `{curve}` is a curve of loading alone")
-            }
-            Self::RestRemoved(own) => write!(f, "{own}"),
-            Self::Elastic => write!(
-                f,
-                "its law is elastic: the peak counts, but rebound, impulse, energy and HIC do not show what a real \
-                 foam loses; `hysteretic-foam` and `hysteretic-table` lose it"
-            ),
-            Self::Upward(acceleration) => write!(
-                f,
-                "{} pulls away from the support; positive is towards it",
-                format_short(*acceleration, Dimension::ACCELERATION, 4)
-            ),
-            Self::Mean(text) => write!(f, "the mean of {text} stands for it here"),
+            own => own.kind(),
         }
     }
 }

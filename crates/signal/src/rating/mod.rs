@@ -40,29 +40,20 @@ pub struct Rating {
     pub later: f64,
 }
 
-/// Why there is no rating.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum Unrated {
-    /// The common part is shorter than 2 ms.
-    #[error("the curves have less than 2 ms in common")]
-    TooShort,
-    /// It is longer than 2 s.
-    #[error("the curves have more than 2 s in common, and an impact is shorter")]
-    TooLong,
-    /// The test is zero throughout.
-    #[error("what was measured is zero throughout")]
-    Zero,
-}
-
-impl Unrated {
-    /// Its word for programs.
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::TooShort => "too-short",
-            Self::TooLong => "too-long",
-            Self::Zero => "zero",
-        }
+dashpot_units::words! {
+    /// Why there is no rating.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+    #[non_exhaustive]
+    pub enum Unrated, pub fn code(self) {
+        /// The common part is shorter than 2 ms.
+        #[error("the curves have less than 2 ms in common")]
+        TooShort = "too-short",
+        /// It is longer than 2 s.
+        #[error("the curves have more than 2 s in common, and an impact is shorter")]
+        TooLong = "too-long",
+        /// The test is zero throughout.
+        #[error("what was measured is zero throughout")]
+        Zero = "zero",
     }
 }
 

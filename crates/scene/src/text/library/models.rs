@@ -11,13 +11,15 @@ use crate::{
     },
 };
 
-/// Which of the two tables of models.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum ModelSection {
-    /// `[models]`, in N/m.
-    Models,
-    /// `[materials]`, in Pa.
-    Materials,
+dashpot_units::words! {
+    /// Which of the two tables of models.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub(crate) enum ModelSection, pub(crate) fn word(self) {
+        /// `[models]`, in N/m.
+        Models = "model",
+        /// `[materials]`, in Pa.
+        Materials = "material",
+    }
 }
 
 /// Both, in the order in which a name is looked up.
@@ -25,14 +27,6 @@ pub(crate) const MODEL_SECTIONS: [ModelSection; 2] =
     [ModelSection::Models, ModelSection::Materials];
 
 impl ModelSection {
-    /// What a model of it is called; also the key that refers to one.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Models => "model",
-            Self::Materials => "material",
-        }
-    }
-
     pub(crate) fn other(self) -> Self {
         match self {
             Self::Models => Self::Materials,
