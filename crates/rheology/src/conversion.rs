@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use thiserror::Error;
+
 use crate::{Canonical, FORMS, LinearModel, Part, Primitive, Role, Tree, forms};
 
 /// A form that models can be brought into.
@@ -36,11 +38,16 @@ pub struct Shape {
 }
 
 /// Why a model cannot be brought into a form.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Unfit {
     /// A rigid link in the Maxwell form, or what bears no force in the Kelvin form.
+    #[error("{}", match .0 {
+        Canonical::Maxwell => "a rigid link has no Maxwell form",
+        Canonical::Kelvin => "a model that bears no force has no Kelvin form",
+    })]
     NoSuchForm(Canonical),
     /// The model has other constants than the form.
+    #[error("the form is {wanted}; the model is {found}")]
     OtherShape {
         /// What the form consists of.
         wanted: Shape,
@@ -77,24 +84,6 @@ impl fmt::Display for Shape {
         }
     }
 }
-
-impl fmt::Display for Unfit {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchForm(Canonical::Maxwell) => {
-                formatter.write_str("a rigid link has no Maxwell form")
-            }
-            Self::NoSuchForm(Canonical::Kelvin) => {
-                formatter.write_str("a model that bears no force has no Kelvin form")
-            }
-            Self::OtherShape { wanted, found } => {
-                write!(formatter, "the form is {wanted}; the model is {found}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Unfit {}
 
 impl Target {
     /// All forms: the canonical ones first.

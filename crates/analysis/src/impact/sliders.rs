@@ -3,15 +3,22 @@
 //! They hold no more than their force, and never give energy. Energy balances close around a slider whatever it
 //! does, so they cannot tell.
 
-use std::fmt;
-
 use dashpot_network::{IdleSlider, phases::Phase};
+use thiserror::Error;
 
 use crate::{Ledger, Solution, wording::quantity};
 
 /// A time over which a slider is held by others while it slides neither way. Its force may be anything
 /// that it can hold, and what holds it bears the rest; the motion does not depend on it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "from {} to {} the force of the slider `{}` is not determined: `{}` holds its ends, and it \
+     slides neither way; it is taken to keep the force that it had",
+    quantity(*.from, "s"),
+    quantity(*.to, "s"),
+    .slider.sliders.first().map_or("", String::as_str),
+    .slider.held_by.join("`, `"),
+)]
 pub struct Idle {
     /// When it begins \[s\].
     pub from: f64,
@@ -19,20 +26,6 @@ pub struct Idle {
     pub to: f64,
     /// The slider, and what holds it.
     pub slider: IdleSlider,
-}
-
-impl fmt::Display for Idle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "from {} to {} the force of the slider `{}` is not determined: `{}` holds its ends, and it \
-             slides neither way; it is taken to keep the force that it had",
-            quantity(self.from, "s"),
-            quantity(self.to, "s"),
-            self.slider.sliders.first().map_or("", String::as_str),
-            self.slider.held_by.join("`, `"),
-        )
-    }
 }
 
 /// All such times, slider by slider in order of time.
@@ -77,9 +70,13 @@ pub(crate) fn idle_times(solution: &Solution<'_>) -> Vec<Idle> {
 const MOST: f64 = Ledger::MOST_LOST;
 
 /// What no dry slider does.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum SliderFault {
     /// It bears more than the force at which it slides.
+    #[error(
+        "at {} the slider `{part}` bears {}, and it can hold {}",
+        quantity(*.time, "s"), quantity(*.force, "N"), quantity(*.capacity, "N")
+    )]
     Overloaded {
         /// Its name.
         part: String,
@@ -91,6 +88,10 @@ pub enum SliderFault {
         capacity: f64,
     },
     /// It jumps against its own force.
+    #[error(
+        "at {} the slider `{part}` jumps against its force and gives {}",
+        quantity(*.time, "s"), quantity(*.energy, "J")
+    )]
     JumpsBack {
         /// Its name.
         part: String,
@@ -99,26 +100,6 @@ pub enum SliderFault {
         /// The energy that it gives \[J\].
         energy: f64,
     },
-}
-
-impl fmt::Display for SliderFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Overloaded { part, time, force, capacity } => write!(
-                f,
-                "at {} the slider `{part}` bears {}, and it can hold {}",
-                quantity(*time, "s"),
-                quantity(*force, "N"),
-                quantity(*capacity, "N")
-            ),
-            Self::JumpsBack { part, time, energy } => write!(
-                f,
-                "at {} the slider `{part}` jumps against its force and gives {}",
-                quantity(*time, "s"),
-                quantity(*energy, "J")
-            ),
-        }
-    }
 }
 
 /// The first thing that a slider does and cannot.

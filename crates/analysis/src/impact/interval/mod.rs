@@ -278,6 +278,11 @@ pub(crate) const NO_PULL: f64 = 1.0;
 /// The sign, `true` for positive, with which a force first reaches a share of its largest magnitude that is not slight.
 pub(crate) fn first_way(force: &Signal) -> Option<bool> {
     let floor = (SLIGHT * force.bound()).max(force.noise);
+    first_beyond(force, floor)
+}
+
+/// The sign, `true` for positive, with which a force first leaves what is within `floor` of zero.
+fn first_beyond(force: &Signal, floor: f64) -> Option<bool> {
     let first = force.value(0.0);
     if first.abs() > floor {
         return Some(first > 0.0);
@@ -304,19 +309,7 @@ fn begins(force: &Signal, threshold: f64) -> Option<bool> {
     if most <= force.noise {
         return force.departure(0.0, 0.0);
     }
-    let first = force.value(0.0);
-    if first.abs() > floor {
-        return Some(first > 0.0);
-    }
-    let window = (0.0, force.end());
-    let push = force.first_crossing(floor, window, Some(true)).map(|own| own.time);
-    let pull = force.first_crossing(-floor, window, Some(false)).map(|own| own.time);
-    match (push, pull) {
-        (Some(push), Some(pull)) => Some(push < pull),
-        (Some(_), None) => Some(true),
-        (None, Some(_)) => Some(false),
-        (None, None) => force.departure(0.0, 0.0),
-    }
+    first_beyond(force, floor)
 }
 
 /// A time over which a force acts without rest.

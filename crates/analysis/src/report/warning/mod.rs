@@ -4,8 +4,9 @@ mod words;
 
 use dashpot_dae::SolveError;
 use dashpot_network::{HeldTable, NetworkWarning};
+use thiserror::Error;
 
-use crate::{Bound, Compression, Idle, Leak, Limit, Note, Reason};
+use crate::{Bound, Compression, Idle, Leak, Limit, Note, Reason, wording::quantity};
 
 /// Something that the reader of a report must know.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,7 +145,14 @@ pub enum Warning {
 }
 
 /// Something that is pressed in by more than its thickness.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "the {name} is pressed in by {} at {}: {} more than its thickness of {}",
+    quantity(.compression.deepest, "m"),
+    quantity(.compression.time, "s"),
+    quantity(-.compression.left(), "m"),
+    quantity(.compression.thickness, "m"),
+)]
 pub struct Through {
     /// The element, or the path of a part of it.
     pub name: String,
@@ -170,7 +178,13 @@ pub struct Beyond {
 }
 
 /// A peak outside of the impact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "`{measure}` is {}, but {} at {}",
+    quantity(*.within, .unit),
+    if .outside.is_finite() { quantity(*.outside, .unit) } else { "infinite".to_owned() },
+    quantity(*.time, "s"),
+)]
 pub struct Harder {
     /// The measure.
     pub measure: String,

@@ -5,7 +5,7 @@ use std::fmt;
 use dashpot_dae::SolveError;
 use dashpot_network::parameters::Dimension;
 
-use super::{Beyond, Harder, Missed, Through, Warning};
+use super::{Beyond, Harder, Missed, Warning};
 use crate::{
     Note,
     wording::{percent, quantity},
@@ -31,20 +31,6 @@ fn why(obstacle: Option<&SolveError>) -> String {
     obstacle.map_or(String::new(), |error| format!(" ({error})"))
 }
 
-impl fmt::Display for Through {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the {} is pressed in by {} at {}: {} more than its thickness of {}",
-            self.name,
-            quantity(self.compression.deepest, "m"),
-            quantity(self.compression.time, "s"),
-            quantity(-self.compression.left(), "m"),
-            quantity(self.compression.thickness, "m"),
-        )
-    }
-}
-
 impl fmt::Display for Beyond {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [how, which] =
@@ -67,18 +53,6 @@ impl fmt::Display for Beyond {
             self.name,
             quantity(self.time, "s"),
         )
-    }
-}
-
-impl fmt::Display for Harder {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let outside = if self.outside.is_finite() {
-            quantity(self.outside, self.unit)
-        } else {
-            "infinite".to_owned()
-        };
-        let (within, time) = (quantity(self.within, self.unit), quantity(self.time, "s"));
-        write!(f, "`{}` is {within}, but {outside} at {time}", self.measure)
     }
 }
 

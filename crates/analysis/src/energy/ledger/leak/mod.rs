@@ -6,6 +6,7 @@ use std::fmt;
 
 pub(super) use parts::within;
 use parts::{Parts, count};
+use thiserror::Error;
 
 use super::ledger;
 use crate::{Solution, wording::quantity};
@@ -16,24 +17,17 @@ const SLICES: u32 = 128;
 const MOST: f64 = 0.5;
 
 /// A place at which a balance is made up.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Place {
     /// An element, by name: the work done on its ends is not what it stores and dissipates.
+    #[error("in the element `{0}`")]
     Element(String),
     /// An impact in an element, by name: the energy that it takes is not the one lost.
+    #[error("in the impact in `{0}`")]
     Impact(String),
     /// The mass of a node, by name: the work of the forces on it is not its kinetic energy.
+    #[error("at the mass `{0}`")]
     Node(String),
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Element(name) => write!(f, "in the element `{name}`"),
-            Self::Impact(name) => write!(f, "in the impact in `{name}`"),
-            Self::Node(name) => write!(f, "at the mass `{name}`"),
-        }
-    }
 }
 
 /// Where most of the energy goes missing, or comes from, in a balance that does not close.
