@@ -1,6 +1,6 @@
 //! A network as a list with counts, where a drawing would be too wide or too large.
 
-use super::symbols::SYMBOLS;
+use super::symbols::{SYMBOLS, word};
 use super::{Census, Sketch, SketchGravity, SketchKind, SketchNode, SketchTree};
 use crate::text_metrics::{clip_columns, columns, one_line};
 
@@ -57,16 +57,10 @@ pub(super) fn gravity(gravity: &SketchGravity) -> String {
 
 /// Counts and tables of nodes and links in lines of at most `width` columns.
 pub(super) fn list(sketch: &Sketch, width: usize) -> String {
-    let nodes = sketch.nodes.iter().map(|node| {
-        let kind = match node.kind {
-            SketchKind::Mass => "mass",
-            SketchKind::Massless => "joint",
-            SketchKind::Face | SketchKind::HeavyFace => "face",
-            SketchKind::Fixed => "support",
-            SketchKind::Prescribed => "prescribed",
-        };
-        [node.name.clone(), kind.into(), lines_and_loads(node).join(", ")]
-    });
+    let nodes = sketch
+        .nodes
+        .iter()
+        .map(|node| [node.name.clone(), word(node.kind).into(), lines_and_loads(node).join(", ")]);
     let name = |index: usize| sketch.nodes.get(index).map_or("?", |node| node.name.as_str());
     let links = sketch.links.iter().map(|link| {
         let ends = format!("{} → {}", name(link.from), name(link.to));

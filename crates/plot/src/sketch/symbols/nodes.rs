@@ -32,7 +32,7 @@ impl Canvas {
         extent: Extent,
         wired: (bool, bool),
     ) {
-        self.group(class(node.kind), |canvas| canvas.body(node, at, extent, wired));
+        self.group(word(node.kind), |canvas| canvas.body(node, at, extent, wired));
         let mut base = at.1 - half_height(node) - 6.0;
         for load in node.loads.iter().rev() {
             let width = ARROW + SPACE + text_width(load, theme::TICK_SIZE);
@@ -122,7 +122,8 @@ fn gravity_text(gravity: &SketchGravity) -> String {
     format!("g = {}", gravity.label)
 }
 
-fn class(kind: SketchKind) -> &'static str {
+/// The word for a kind of node, also the class of its symbol.
+pub(in crate::sketch) fn word(kind: SketchKind) -> &'static str {
     match kind {
         SketchKind::Mass => "mass",
         SketchKind::Massless => "joint",
