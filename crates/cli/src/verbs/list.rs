@@ -157,14 +157,10 @@ fn entry_text(entry: &Entry, widest: usize) -> String {
         let name = if at == 0 { entry.name.as_str() } else { "" };
         let _ = writeln!(text, "  {name:widest$}  {line}");
     }
-    if let Some(example) = &entry.example {
-        for (at, line) in parted(example, WIDTH - 10).iter().enumerate() {
-            let indent = if at == 0 { "" } else { "  " };
-            let _ = writeln!(text, "      {indent}{line}");
-        }
-    }
-    for detail in &entry.details {
-        for (at, line) in wrapped(detail, WIDTH - 10).iter().enumerate() {
+    let example = entry.example.iter().map(|own| parted(own, WIDTH - 10));
+    let details = entry.details.iter().map(|own| wrapped(own, WIDTH - 10));
+    for lines in example.chain(details) {
+        for (at, line) in lines.iter().enumerate() {
             let indent = if at == 0 { "" } else { "  " };
             let _ = writeln!(text, "      {indent}{line}");
         }

@@ -14,7 +14,7 @@ use dashpot_design::{
     cushion::{Cushion, Known, cushion as solve, with_scatter},
     optimum::Scattered,
 };
-use dashpot_scene::{Scene, read};
+use dashpot_scene::Scene;
 use serde::Serialize;
 
 use self::{asked::Wanted, batches::Batches};
@@ -24,7 +24,7 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{Input, title},
-    operand::print_notes,
+    operand::{print_notes, read_scene_of},
     output::{Study, Text, emit},
     progress::Bar,
     terminal::Terminal,
@@ -124,9 +124,7 @@ pub(crate) fn cushion(
 ) -> Result<Status, CliError> {
     let input = Input::of(arguments.scene.scene.as_deref())?;
     let set = &arguments.scene.values.set;
-    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-    terminal.diagnose(&checked.warnings);
-    let scene = checked.value;
+    let scene = read_scene_of(&input, set, terminal)?;
     let wanted = Wanted::of(arguments, &scene, &input)?;
     if arguments.enforce && wanted.asked.limit.is_none() {
         return Err(CliError::NoLimits);

@@ -1,12 +1,12 @@
 //! What a search has found, for people and for programs.
 
-use dashpot_analysis::{Judged, Reason, RunReport};
+use dashpot_analysis::{Reason, RunReport};
 use dashpot_design::optimum::{Aim, Design, Kept, Looked, Requirement};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{
-    among::{Choice, Taken},
+    among::Choice,
     asked::{Asked, Least},
     files,
     front::Point,
@@ -137,68 +137,39 @@ impl Answer {
         self.test_name(at)
     }
 
-    fn limits<'a>(&'a self, best: &'a Design) -> Vec<LimitTold<'a>> {
+    fn limits<'a>(&'a self, best: &'a Design) -> Vec<impl Serialize> {
         let each = best.kept.iter().filter_map(|kept| {
             let Requirement::Limit(limit) = &kept.required.what else { return None };
             let judged = best.runs[kept.required.test].judged();
             let judged = judged.into_iter().find(|own| own.limit.is_same(limit))?;
             let (test, decides) = (self.test_name(kept.required.test), best.decides(kept));
-            Some(LimitTold { test, decides, judged, kept: kept.into() })
+            let (active, price) = (kept.is_active, price(kept));
+            Some(object! { test, decides, #[serde(flatten)] judged, active, price })
         });
         list(each)
     }
 }
 
-/// What was asked of a requirement besides: whether it holds the design, and what more of it would change.
-#[derive(Serialize)]
-struct Held {
-    active: bool,
-    /// Change of the aim per unit of the bound.
-    price: Option<f64>,
-}
-
-impl From<&Kept> for Held {
-    fn from(own: &Kept) -> Self {
-        Self { active: own.is_active, price: own.price.filter(|own| own.is_finite()) }
-    }
-}
-
-/// A limit as a run tells it, with its test.
-#[derive(Serialize)]
-struct LimitTold<'a> {
-    test: Option<&'a str>,
-    /// Whether no other test leaves less to it.
-    decides: bool,
-    #[serde(flatten)]
-    judged: Judged<'a>,
-    #[serde(flatten)]
-    kept: Held,
-}
-
-/// A number or word that was found.
-#[derive(Serialize)]
-pub(super) struct Parameter {
-    value: Option<f64>,
-    word: Option<String>,
-    unit: String,
+/// Change of the aim per unit of a bound.
+fn price(own: &Kept) -> Option<f64> {
+    own.price.filter(|own| own.is_finite())
 }
 
 /// The numbers and words of a design.
-pub(super) fn parameters(
+fn parameters(
     asked: &Asked,
     choice: &Choice,
     values: &[f64],
-) -> Pairs<String, Parameter> {
-    let numbers = asked.numbers.iter().zip(values).map(|(own, value)| {
-        let unit = own.si.clone();
-        (own.name.clone(), Parameter { value: Some(*value), word: None, unit })
-    });
+) -> Pairs<String, impl Serialize + use<>> {
+    let numbers = asked.numbers.iter().zip(values);
+    let numbers = numbers.map(|(own, value)| (own.name.clone(), Some(*value), None, &own.si));
     let chosen = asked.chosen(choice).map(|(name, own)| {
-        let Taken { value, si, text, .. } = own.clone();
-        let word = value.is_none().then_some(text);
-        (name.to_owned(), Parameter { value, word, unit: si })
+        let word = own.value.is_none().then(|| own.text.clone());
+        (name.to_owned(), own.value, word, &own.si)
     });
-    numbers.chain(chosen).collect()
+    let all = numbers.chain(chosen);
+    all.map(|(name, value, word, unit)| (name, object! { value, word, unit: unit.clone() }))
+        .collect()
 }
 
 /// The measures of the runs of all tests, of each the one with the largest value.
@@ -253,8 +224,8 @@ impl Study for Answer {
         let kept = || design.into_iter().flat_map(|own| &own.kept);
         let depths = kept().filter_map(|own| {
             let Requirement::Depth(of, _) = &own.required.what else { return None };
-            let (test, held) = (self.test_name(own.required.test), Held::from(own));
-            let (active, price) = (held.active, held.price);
+            let test = self.test_name(own.required.test);
+            let (active, price) = (own.is_active, price(own));
             let decides = design.is_some_and(|design| design.decides(own));
             Some(object! { test, decides, of, part: own.value, margin: own.margin, active, price })
         });

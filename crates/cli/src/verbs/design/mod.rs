@@ -26,7 +26,7 @@ use dashpot_analysis::{
 use dashpot_design::optimum::{
     Design, DesignError, Effort, Problem, Scattered, design as search, robust,
 };
-use dashpot_scene::{Tunables, read, with_limits};
+use dashpot_scene::{Tunables, with_limits};
 
 use self::{
     among::Choice,
@@ -45,6 +45,7 @@ use crate::{
     error::{CliError, Status},
     host,
     input::Input,
+    operand::read_scene_of,
     out::OutArguments,
     output::{emit, list},
     progress::Bar,
@@ -161,9 +162,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<
     let arguments = merged.as_ref().unwrap_or(arguments);
     arguments.check()?;
     let set = &arguments.scene.values.set;
-    let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-    terminal.diagnose(&checked.warnings);
-    let mut scene = checked.value;
+    let mut scene = read_scene_of(&input, set, terminal)?;
     let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
     let (tests, files) = scenes::tests(&arguments.test, &input)?;
     let asked = Asked::of(arguments, tunables, tests)?;

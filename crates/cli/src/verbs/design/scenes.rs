@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use dashpot_scene::{Scene, Tunables, read, units::si_unit};
+use dashpot_scene::{Scene, Tunables, units::si_unit};
 
 use super::{among::Among, asked::Asked};
 use crate::{
     args::{Variant, variant},
     error::CliError,
     input::Input,
-    operand::print_notes,
+    operand::{print_notes, read_scene_of},
     output::{each_once, list},
     terminal::Terminal,
     varied::Varied,
@@ -140,9 +140,7 @@ impl TestScene {
         terminal: Terminal,
     ) -> Result<Self, CliError> {
         let input = Input::read(path)?;
-        let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-        terminal.diagnose(&checked.warnings);
-        let scene = checked.value;
+        let scene = read_scene_of(&input, set, terminal)?;
         let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
         let missing = |name: &str, why: String| {
             let file = &input.file;

@@ -7,7 +7,7 @@ use dashpot_fit::network::{
     Band, Kind, Known, NetworkFault, NetworkFit, NetworkSettings, Number, Profile, Search, Test,
     fit_watched,
 };
-use dashpot_scene::{Posed, ScatteredNumber, Scene, Tunables, Variation, read};
+use dashpot_scene::{Posed, ScatteredNumber, Scene, Tunables, Variation};
 
 use super::{
     FitArguments,
@@ -22,7 +22,7 @@ use super::{
 use crate::{
     error::CliError,
     input::{Input, setting},
-    operand::print_notes,
+    operand::{print_notes, read_scene_of},
     out::SceneText,
     output::list,
     terminal::{Terminal, note},
@@ -105,9 +105,7 @@ impl<'p> Plan<'p> {
         terminal: Terminal,
     ) -> Result<Self, CliError> {
         let set = &arguments.values.set;
-        let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
-        terminal.diagnose(&checked.warnings);
-        let scene = checked.value;
+        let scene = read_scene_of(input, set, terminal)?;
         if arguments.scatter && scene.scatter.iter().any(|own| own.is_together) {
             let reason = "the scene has a section `[scatter]` already: leave that out".to_owned();
             return Err(CliError::WrongSetting { name: "--scatter".to_owned(), reason });

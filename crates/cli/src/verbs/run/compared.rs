@@ -16,9 +16,9 @@ use super::{
 };
 use crate::{
     numbers::{percent_signed, quantity},
-    output::{Pairs, list},
+    output::{Pairs, list, object},
     verbs::signal::{
-        object::{ReadingObject, WarningObject},
+        object::{number, warning},
         words::{shown, unit_of},
     },
 };
@@ -226,54 +226,27 @@ pub(super) fn table(all: &[Compared<'_>]) -> Option<Table> {
 }
 
 /// The same for programs, in SI units.
-#[derive(Serialize)]
-pub(super) struct Told {
-    measures: Pairs<&'static str, ToldReading>,
-    warnings: Vec<WarningObject>,
-    rating: Option<ToldRating>,
-    unrated: Option<&'static str>,
-}
-
-#[derive(Serialize)]
-struct ToldReading {
-    measured: ReadingObject,
-    model: ReadingObject,
-    /// The model less what was measured, in parts of that.
-    relative: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct ToldRating {
-    overall: f64,
-    grade: &'static str,
-    #[serde(flatten)]
-    scores: Rating,
-}
-
-impl Told {
-    pub(super) fn of(numbers: Option<&Numbers>) -> Self {
-        let rating = numbers.map(|own| own.rating);
-        let dimension = numbers.map_or(Dimension::NUMBER, |own| own.measured.channel.dimension());
-        let one = |(measured, model): (&Reading, &Reading)| {
-            let is_told = measured.truth == Truth::Within;
-            let both = measured.value.ok().zip(model.value.ok());
-            let both = both.filter(|own| own.0 != 0.0 && is_told);
-            let told = ToldReading {
-                measured: ReadingObject::of(dimension, measured),
-                model: ReadingObject::of(dimension, model),
-                relative: both.map(|own| (own.1 - own.0) / own.0.abs()),
-            };
-            (measured.measure.word(), told)
+pub(super) fn object(numbers: Option<&Numbers>) -> impl Serialize {
+    let rating = numbers.map(|own| own.rating);
+    let dimension = numbers.map_or(Dimension::NUMBER, |own| own.measured.channel.dimension());
+    let one = |(measured, model): (&Reading, &Reading)| {
+        let is_told = measured.truth == Truth::Within;
+        let both = measured.value.ok().zip(model.value.ok());
+        let both = both.filter(|own| own.0 != 0.0 && is_told);
+        let told = object! {
+            measured: number(dimension, measured),
+            model: number(dimension, model),
+            relative: both.map(|own| (own.1 - own.0) / own.0.abs()),
         };
-        Self {
-            measures: numbers.iter().flat_map(|own| own.readings()).map(one).collect(),
-            warnings: list(numbers.into_iter().flat_map(impossible).map(WarningObject::of)),
-            rating: rating.and_then(Result::ok).map(|scores| ToldRating {
-                overall: scores.overall(),
-                grade: scores.grade(),
-                scores,
-            }),
-            unrated: rating.and_then(Result::err).map(Unrated::code),
-        }
+        (measured.measure.word(), told)
+    };
+    let rated = |scores: Rating| {
+        object! { overall: scores.overall(), grade: scores.grade(), #[serde(flatten)] scores }
+    };
+    object! {
+        measures: numbers.iter().flat_map(|own| own.readings()).map(one).collect::<Pairs<_, _>>(),
+        warnings: list(numbers.into_iter().flat_map(impossible).map(warning)),
+        rating: rating.and_then(Result::ok).map(rated),
+        unrated: rating.and_then(Result::err).map(Unrated::code),
     }
 }

@@ -5,7 +5,7 @@ use dashpot_plot::Table;
 use dashpot_scene::Scene;
 use serde::Serialize;
 
-use super::{Answer, deviations::Told, files::sample_times, floor};
+use super::{Answer, deviations, files::sample_times, floor};
 use crate::{
     counts::check_memory,
     error::CliError,
@@ -20,7 +20,7 @@ const ZERO: f64 = 1e-12;
 
 /// A run as an object, with what the command line asks for besides.
 #[derive(Serialize)]
-pub(super) struct Run<'r> {
+pub(super) struct Run<'r, T> {
     #[serde(flatten)]
     report: &'r RunReport,
     /// All outputs at the times of the CSV.
@@ -31,7 +31,7 @@ pub(super) struct Run<'r> {
     at: Option<Outputs>,
     /// How far it is from each measured curve.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    measured: Vec<Told<'r>>,
+    measured: Vec<T>,
     /// What no pad can beat.
     #[serde(skip_serializing_if = "Option::is_none")]
     floor: Option<floor::Object>,
@@ -51,7 +51,7 @@ struct Output {
     values: Vec<f64>,
 }
 
-impl<'r> Run<'r> {
+impl<'r, T> Run<'r, T> {
     pub(super) fn of(report: &'r RunReport, floor: Option<&floor::Told>) -> Self {
         let floor = floor.map(|own| own.object(report));
         Self { report, curves: None, at: None, measured: Vec::new(), floor }
@@ -60,10 +60,10 @@ impl<'r> Run<'r> {
 
 impl Answer {
     /// A run of it as an object.
-    pub(super) fn object_of<'r>(&'r self, run: &'r RunReport) -> Run<'r> {
+    pub(super) fn object_of<'r>(&'r self, run: &'r RunReport) -> Run<'r, impl Serialize> {
         let curves = self.wishes.curves.then(|| outputs(run, sample_times(run, &self.scene.run)));
         let at = (!self.wishes.at.is_empty()).then(|| outputs(run, self.wishes.at.clone()));
-        let measured = list(self.compared(run, run.solver.method).map(Told::from));
+        let measured = list(self.compared(run, run.solver.method).map(deviations::object));
         Run { curves, at, measured, ..Run::of(run, self.floor.as_ref()) }
     }
 

@@ -3,10 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{Judged, Judgement, Limit, RunReport};
-use dashpot_plot::{
-    Report, ReportFigure, RunSeries, Table,
-    figures::{FIGURES, FORCE_TIME},
-};
+use dashpot_plot::{Report, RunSeries, Table, figures::FORCE_TIME};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -404,20 +401,13 @@ impl Study for Designs {
 
     fn files(&self, files: &mut Staged<'_>) -> Result<(), CliError> {
         let series = self.as_designs(curves_and_energies(self.best().map(|own| own.1), POINTS));
-        let mut figures = Vec::new();
         let wished = self.designs.first().map_or(&[][..], |own| &own.answer.wishes.written);
         let has = |kind: Written| kind.is_in(wished);
-        for figure in FIGURES.iter().filter(|_| has(Written::Figures) || has(Written::Page)) {
-            let chart = figure.chart(&series);
-            if chart.series.is_empty() {
-                continue;
-            }
-            let drawing = ReportFigure::of(&chart)?;
-            if has(Written::Figures) {
-                files.add(format!("{}.svg", figure.name), &drawing.svg)?;
-            }
-            figures.push(drawing);
-        }
+        let figures = if has(Written::Figures) || has(Written::Page) {
+            files::add_figures(files, &series, wished)?
+        } else {
+            Vec::new()
+        };
         let page = Report {
             title: format!("{} designs side by side", self.designs.len()),
             warnings: self

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     numbers::{MOST_DIGITS, Unit, constant, percent_signed, quantity, rounded, share},
-    output::{Text, list},
+    output::{Text, list, object},
 };
 
 /// Digits of what was measured.
@@ -164,59 +164,28 @@ pub(super) fn remarks(all: &[Compared<'_>]) -> Vec<String> {
 }
 
 /// The same for programs, in SI units; times are those of the curve.
-#[derive(Serialize)]
-pub(super) struct Told<'r> {
-    file: &'r str,
-    sha256: &'r str,
-    column: &'r str,
-    output: String,
-    unit: &'static str,
-    shift: f64,
-    zero: f64,
-    rows: usize,
-    span: (f64, f64),
-    measured_peak: Point,
-    model_peak: Point,
-    peak: f64,
-    peak_relative: f64,
-    peak_later: f64,
-    rms: f64,
-    rms_relative: f64,
-    /// The filter that both went through.
-    cfc: Option<f64>,
-    #[serde(flatten)]
-    numbers: compared::Told,
-}
-
-#[derive(Serialize)]
-struct Point {
-    value: f64,
-    time: f64,
-}
-
-impl<'r> From<Compared<'r>> for Told<'r> {
-    fn from(own: Compared<'r>) -> Self {
-        let (curve, deviation) = (own.curve, own.beside.deviation);
-        let point = |(time, value): (f64, f64)| Point { value, time };
-        Self {
-            file: &curve.file,
-            sha256: &curve.sha256,
-            column: &curve.column,
-            output: curve.output.key(),
-            unit: curve.output.unit(),
-            shift: curve.shift,
-            zero: own.beside.zero,
-            rows: deviation.rows,
-            span: deviation.span,
-            measured_peak: point(deviation.measured_peak),
-            model_peak: point(deviation.model_peak),
-            peak: deviation.peak(),
-            peak_relative: deviation.relative_peak(),
-            peak_later: deviation.place(),
-            rms: deviation.rms * deviation.measured_peak.1.abs(),
-            rms_relative: deviation.rms,
-            cfc: curve.cfc.map(Cfc::class),
-            numbers: compared::Told::of(own.beside.numbers.as_ref()),
-        }
+pub(super) fn object(own: Compared<'_>) -> impl Serialize {
+    let (curve, deviation) = (own.curve, own.beside.deviation);
+    let point = |(time, value): (f64, f64)| object! { value, time };
+    object! {
+        file: &curve.file,
+        sha256: &curve.sha256,
+        column: &curve.column,
+        output: curve.output.key(),
+        unit: curve.output.unit(),
+        shift: curve.shift,
+        zero: own.beside.zero,
+        rows: deviation.rows,
+        span: deviation.span,
+        measured_peak: point(deviation.measured_peak),
+        model_peak: point(deviation.model_peak),
+        peak: deviation.peak(),
+        peak_relative: deviation.relative_peak(),
+        peak_later: deviation.place(),
+        rms: deviation.rms * deviation.measured_peak.1.abs(),
+        rms_relative: deviation.rms,
+        cfc: curve.cfc.map(Cfc::class),
+        #[serde(flatten)]
+        numbers: compared::object(own.beside.numbers.as_ref()),
     }
 }

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use dashpot_analysis::{
     EventReport, RunReport, regular_times, resolving_times, table_at, touching,
 };
-use dashpot_plot::{Report, ReportFigure, Table, figures::FIGURES};
+use dashpot_plot::{Report, ReportFigure, RunSeries, Table, figures::FIGURES};
 use dashpot_scene::RunSettings;
 
 use super::{
@@ -94,36 +94,47 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
 /// Adds the figures and the page that holds them, as far as they are asked for.
 fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError> {
     let has = |kind: Written| kind.is_in(&answer.wishes.written);
-    let add = |files: &mut Staged<'_>, name: &str, svg: &str| {
-        if has(Written::Figures) { files.add(name, svg) } else { Ok(()) }
-    };
     let network = &answer.scene.network;
     let is_drawn = network.connections().len() <= MOST_DRAWN;
     let (low, high) = POINTS;
     let count = answer.scene.run.samples.clamp(low, high);
     let series = curves_and_energies(answer.runs.iter(), count);
     let series: Vec<_> = series.into_iter().map(|own| answer.with_measured(own)).collect();
-    let mut figures = Vec::new();
     let mut drawn = None;
     if is_drawn {
         let svg = sketch(network, answer.scene.run.duration).svg();
-        add(files, DRAWING, &svg)?;
+        if has(Written::Figures) {
+            files.add(DRAWING, &svg)?;
+        }
         drawn = Some(ReportFigure::of_sketch("The network", svg));
     }
+    let figures = add_figures(files, &series, &answer.wishes.written)?;
+    if has(Written::Page) {
+        files.add(PAGE, Report { network: drawn, figures, ..page(answer) }.html())?;
+    }
+    Ok(())
+}
+
+/// Adds the figures of runs where they are `wished` for; returns them for a page.
+pub(super) fn add_figures(
+    files: &mut Staged<'_>,
+    series: &[RunSeries],
+    wished: &[Written],
+) -> Result<Vec<ReportFigure>, CliError> {
+    let mut figures = Vec::new();
     for figure in FIGURES {
-        let chart = figure.chart(&series);
+        let chart = figure.chart(series);
         // Of a rigid contact alone there is no force over a deformation.
         if chart.series.is_empty() {
             continue;
         }
         let drawing = ReportFigure::of(&chart)?;
-        add(files, &format!("{}.svg", figure.name), &drawing.svg)?;
+        if Written::Figures.is_in(wished) {
+            files.add(format!("{}.svg", figure.name), &drawing.svg)?;
+        }
         figures.push(drawing);
     }
-    if has(Written::Page) {
-        files.add(PAGE, Report { network: drawn, figures, ..page(answer) }.html())?;
-    }
-    Ok(())
+    Ok(figures)
 }
 
 /// Regular times where the scene says how many, else times closer to each other in short contacts.

@@ -101,6 +101,6 @@ impl SceneRun {
 
 impl Serialize for SceneRun {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        curves::Run::of(&self.report, self.floor.as_ref()).serialize(serializer)
+        curves::Run::<()>::of(&self.report, self.floor.as_ref()).serialize(serializer)
     }
 }

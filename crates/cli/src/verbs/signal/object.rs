@@ -25,10 +25,7 @@ fn channel(signal: &Signal) -> impl Serialize {
     let readings = own.readings.iter();
     let measures: Pairs<String, _> = readings
         .map(|reading| {
-            (
-                format!("{name}.{}", reading.measure.word()),
-                ReadingObject::of(own.channel.dimension(), reading),
-            )
+            (format!("{name}.{}", reading.measure.word()), number(own.channel.dimension(), reading))
         })
         .collect();
     object! {
@@ -63,50 +60,26 @@ fn channel(signal: &Signal) -> impl Serialize {
             Removal::Given(_) => "given",
         },
         measures,
-        warnings: list(own.defects.iter().map(WarningObject::of)),
+        warnings: list(own.defects.iter().map(warning)),
     }
 }
 
 /// What is wrong with a channel.
-#[derive(Serialize)]
-pub(in crate::verbs) struct WarningObject {
-    code: &'static str,
-    text: String,
+pub(in crate::verbs) fn warning(own: &Defect) -> impl Serialize + use<> {
+    object! { code: own.code(), text: own.to_string() }
 }
 
-impl WarningObject {
-    pub(in crate::verbs) fn of(own: &Defect) -> Self {
-        Self { code: own.code(), text: own.to_string() }
-    }
-}
-
-/// A number read off a channel.
-#[derive(Serialize)]
-pub(in crate::verbs) struct ReadingObject {
-    value: Option<f64>,
-    unit: String,
-    time: Option<f64>,
-    window: Option<(f64, f64)>,
-    error: Option<f64>,
-    /// `at-least` or `at-most` of a value that is a bound, and has no error.
-    bound: Option<&'static str>,
-    on_samples: Option<f64>,
-    note_code: Option<&'static str>,
-}
-
-impl ReadingObject {
-    /// That of a channel of this dimension.
-    pub(in crate::verbs) fn of(channel: Dimension, reading: &Reading) -> Self {
-        Self {
-            value: reading.value.ok(),
-            unit: si_unit(reading.measure.dimension(channel)),
-            time: reading.time,
-            window: reading.window,
-            error: reading.bar(),
-            bound: reading.truth.word(),
-            on_samples: reading.on_samples,
-            note_code: reading.value.err().map(Reason::code),
-        }
+/// A number read off a channel of this dimension; one that is a bound, `at-least` or `at-most`, has no error.
+pub(in crate::verbs) fn number(channel: Dimension, reading: &Reading) -> impl Serialize + use<> {
+    object! {
+        value: reading.value.ok(),
+        unit: si_unit(reading.measure.dimension(channel)),
+        time: reading.time,
+        window: reading.window,
+        error: reading.bar(),
+        bound: reading.truth.word(),
+        on_samples: reading.on_samples,
+        note_code: reading.value.err().map(Reason::code),
     }
 }
 
