@@ -237,16 +237,14 @@ impl Words<'_> {
         let (answer, run, reached) = (self.answer, self.run, &found.reached);
         let method = run.solver.method;
         let is_estimated = answer.asked.iter().any(|asked| asked.estimate);
+        let but = Self::exceptions(reached);
+        let other = if but.is_empty() { "" } else { " other" };
         let own = match reached.worst {
             None if run.measures.is_empty() => return None,
             None if is_estimated && reached.is_unknown => {
                 "it is not known: no further solutions came about to tell errors".to_owned()
             }
-            None if is_estimated => {
-                let but = Self::exceptions(reached);
-                let no = if but.is_empty() { "no" } else { "no other" };
-                format!("{but}{no} figure has a size to be relative to")
-            }
+            None if is_estimated => format!("{but}no{other} figure has a size to be relative to"),
             None => "errors were not estimated".to_owned(),
             Some(worst) if !worst.is_finite() => {
                 "some figures come and go with the tolerance; see the table".to_owned()
@@ -259,15 +257,13 @@ impl Words<'_> {
                     let solutions = run.solver.solves_for_error + 1;
                     format!(" (by {solutions} solutions of `{method}`{of})")
                 };
-                let but = Self::exceptions(reached);
-                let every = if but.is_empty() { "every figure" } else { "every other figure" };
                 match self.far_off(reached) {
                     Some((key, others)) => format!(
                         "{but}`{key}` within {}, every other figure within {}{how}",
                         bound(worst),
                         bound(others)
                     ),
-                    None => format!("{but}{every} within {}{how}", bound(worst)),
+                    None => format!("{but}every{other} figure within {}{how}", bound(worst)),
                 }
             }
         };
