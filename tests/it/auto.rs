@@ -228,6 +228,31 @@ fn budget_ends_a_run_with_the_best_answer_so_far() {
     assert!(time < scene.run.duration && (100..1000).contains(&work), "{time} {work}");
 }
 
+/// A slide on a drive sticks and slips four times a second: the time at which a budget ends does not go back.
+#[test]
+fn the_time_that_a_budget_reaches_is_counted_from_the_start_of_the_run() {
+    let text = "[nodes]\ndrive = { motion = { sine = { amplitude = \"0.5 mm\", frequency = \"2 Hz\" } } }\n\
+                slide = { mass = 180 }\n[elements]\n\
+                screw = { between = [\"drive\", \"slide\"], spring = \"4 MN/m\" }\n\
+                guides = { between = [\"slide\", \"ground\"], friction = \"600 N\" }\n[run]\nduration = 5\n";
+    let scene = scene(text);
+    for method in ["bdf", "dop853", "exact"] {
+        let mut reached = Vec::new();
+        for budget in (10..34).map(|power| 1 << power) {
+            let settings = SolveSettings { budget, ..scene.settings(method).unwrap() };
+            match run(&scene, &settings) {
+                Err(RunError::Solve(SolveError::BudgetSpent { time, .. })) => reached.push(time),
+                other => {
+                    other.unwrap();
+                    break;
+                }
+            }
+        }
+        let last = reached.last().copied().unwrap_or(0.0);
+        assert!(reached.is_sorted() && last > 1.0 && last <= 5.0, "{method}: {reached:?}");
+    }
+}
+
 #[test]
 fn never_prefers_what_nothing_is_known_of() {
     // 1 kg on a spring of 1 N/m carries a speck whose 10⁹ rad `exact` does not follow, and which is not excited: of all

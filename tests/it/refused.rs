@@ -233,6 +233,11 @@ fn slips_of_the_command_line_are_told_with_what_to_write() {
         // Its first words are nearer than another number.
         (vec!["run", scene, "--limit", "head.hic15=fmvss-208"], "did you mean `fmvss-208-hic15`?"),
         (vec!["cushion", scene, "--stress", "1..10"], "\"1..10 kPa\" or \"1..10 Pa\""),
+        // A number of the scene is bounded where it is varied.
+        (
+            vec!["design", scene, "--vary", "K=1..9 kN/m", "--limit", "pad.thickness<=30 mm"],
+            "--vary",
+        ),
         ([&convert[..], &[text(&nowhere)]].concat(), &missing),
     ] {
         let output = run(&arguments);

@@ -1,6 +1,8 @@
 //! What cannot be told apart from outside, in words.
 
-use dashpot_network::{Model, primitive};
+use std::sync::Arc;
+
+use dashpot_network::{Element, Model, elements::Law, primitive};
 use dashpot_rheology::{
     Primitive,
     identifiability::{Entangled, entangled},
@@ -15,9 +17,12 @@ const MOST_PARTS: usize = 300;
 const MOST_LISTED: usize = 8;
 const DIGITS: usize = 6;
 
-/// Groups of parameters of a model that cannot all be told apart from outside.
+/// Groups of parameters of a model that cannot all be told apart from outside; none of one with a part that is not linear,
+/// which may show at one force what it hides at another.
 pub(crate) fn groups(model: &Model) -> Vec<Entangled> {
-    if model.leaves().nth(MOST_PARTS).is_some() {
+    let is_linear =
+        |part: &Arc<dyn Element>| !matches!(part.law(), Law::Nonlinear { .. } | Law::Phased);
+    if model.leaves().nth(MOST_PARTS).is_some() || !model.leaves().all(is_linear) {
         return Vec::new();
     }
     entangled(model, |element| primitive(element.as_ref()))

@@ -11,7 +11,7 @@ use crate::{
         constant_area::constant_areas,
         elastic::elastic_pads,
         network_faults::{note_errors, note_held, note_warnings},
-        review::{outlasted, review, upward, weightless},
+        review::{outlasted, resting_impactors, review, upward, weightless},
     },
     diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     kinds::{Example, model_words},
@@ -453,6 +453,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
+    notes.extend(resting_impactors(&network));
     notes.extend(upward(&network));
     notes.extend(library.table_notes());
     let values = library.values().iter().filter_map(|(name, known)| {

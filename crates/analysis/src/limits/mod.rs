@@ -67,6 +67,8 @@ dashpot_units::words! {
         OtherAxes = "other-axes",
         /// It keeps the limit, but the record is clipped: the measure was larger.
         Clipped = "clipped",
+        /// The unit of the record is in doubt.
+        Unit = "unit",
         /// It keeps the limit at the means of numbers with scatter, but too few of the designs do.
         Scatter = "scatter",
     }

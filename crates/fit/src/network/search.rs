@@ -281,8 +281,8 @@ impl Task<'_> {
         self.parts().zip(self.tests()).enumerate().any(|(at, (rows, own))| {
             let left = &left[rows];
             let resting = self.rows_at_rest(at, unknowns);
-            let at_rest = || (resting >= FEWEST).then(|| deviation(&left[..resting]));
-            is_structured(left, own.noise.map(|own| own / self.unit(at)).or_else(at_rest))
+            let at_rest = (resting >= FEWEST).then(|| deviation(&left[..resting]));
+            is_structured(left, own.noise.map(|own| own / self.unit(at)), at_rest)
         })
     }
 }

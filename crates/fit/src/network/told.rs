@@ -18,9 +18,10 @@ const ZERO_OFF: f64 = 0.01;
 const ERRORS: f64 = 15.0;
 
 /// What is left of a record is more than noise beyond so many times that, where it is known; else where the statistic of
-/// Durbin and Watson is below this, which is 2 of noise that is white.
+/// Durbin and Watson is below this, which is 2 of noise that is white. Both together show it sooner where noise is stated.
 const NOISY: f64 = 1.5;
 const FOLLOWING: f64 = 1.0;
+const BEYOND_STATED: f64 = 1.25;
 /// Fewer rows tell no such statistic.
 const FEWEST_FOLLOWING: usize = 20;
 /// More than this part of the peak is much of a record; less than this is no more than the error of solutions.
@@ -46,12 +47,17 @@ pub(super) fn deviation(left: &[f64]) -> f64 {
     OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// Whether more is left in rows than noise of a standard deviation, or than any that is white.
-pub(super) fn is_structured(left: &[f64], noise: Option<f64>) -> bool {
-    let square: f64 = left.iter().map(|own| own * own).sum();
-    match noise {
-        Some(noise) => square > left.len() as f64 * (NOISY * noise).powi(2),
-        None => durbin_watson(left) < FOLLOWING,
+/// Whether more is left in rows than noise of a standard deviation that is stated, or else was read, or than any that is
+/// white.
+pub(super) fn is_structured(left: &[f64], stated: Option<f64>, read: Option<f64>) -> bool {
+    let is_beyond = |noise: f64| {
+        left.iter().map(|own| own * own).sum::<f64>() > left.len() as f64 * noise.powi(2)
+    };
+    let is_following = durbin_watson(left) < FOLLOWING;
+    match (stated, read) {
+        (Some(noise), _) if is_following => is_beyond(BEYOND_STATED * noise),
+        (Some(noise), _) | (None, Some(noise)) => is_beyond(NOISY * noise),
+        (None, None) => is_following,
     }
 }
 
@@ -162,12 +168,13 @@ impl Task<'_> {
             let rms = (square / residual.len() as f64).sqrt();
             let measured_peak = largest(test.rows.iter().map(|row| row.1 - own.offset));
             let part = if test.kind == Kind::Modulus { rms } else { rms / measured_peak.abs() };
-            let known = test.noise.or(scatter.map(|own| own.deviation)).or(at_rest);
+            let read = scatter.map(|own| own.deviation).or(at_rest).map(|own| own / unit);
+            let stated = test.noise.map(|own| own / unit);
             let model = test.rows.iter().zip(&residual).map(|(row, left)| row.1 + left);
             let sides = side(test.rows.iter().map(|row| row.1)).zip(side(model));
             let is_opposed =
                 test.kind != Kind::Modulus && sides.is_some_and(|own| own.0 * own.1 < 0.0);
-            let is_structured = part > EXACT && is_structured(left, known.map(|own| own / unit));
+            let is_structured = part > EXACT && is_structured(left, stated, read);
             Some(TestFit {
                 shift: own.shift,
                 offset: own.offset,

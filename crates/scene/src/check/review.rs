@@ -143,13 +143,29 @@ pub(crate) fn upward(network: &Network) -> Option<ModelNote> {
     })
 }
 
-/// Warns of a network in which all that begins at rest stays at rest.
-fn still(reading: &Reading<'_>, network: &Network) {
-    let starts = |node: &Node| match node.start {
+/// Whether a node begins with a speed that is not zero.
+fn starts(node: &Node) -> bool {
+    match node.start {
         Start::Rest => false,
         Start::Velocity(speed) => speed != 0.0,
         Start::Drop(height) => height > 0.0,
+    }
+}
+
+/// Nodes that are impactors by a speed of zero, where another one strikes.
+pub(crate) fn resting_impactors(network: &Network) -> Vec<ModelNote> {
+    let Some((_, other)) = network.nodes().find(|own| starts(own.1)) else { return Vec::new() };
+    let resting = network.nodes().filter(|own| own.1.is_impactor() && !starts(own.1));
+    let note = |(_, node): (_, &Node)| ModelNote {
+        subject: format!("node `{}`", node.name),
+        what: Remark::StartsAtRest(other.name.clone()),
+        until: None,
     };
+    resting.map(note).collect()
+}
+
+/// Warns of a network in which all that begins at rest stays at rest.
+fn still(reading: &Reading<'_>, network: &Network) {
     let is_driven = |node: &Node| matches!(node.support, Support::Prescribed(_));
     let moves = !network.loads().is_empty()
         || network.nodes().any(|(_, node)| starts(node) || is_driven(node) || node.position != 0.0)

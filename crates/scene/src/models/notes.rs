@@ -70,6 +70,12 @@ dashpot_units::words! {
             /// The same in parts of the energy with which it strikes.
             part: f64,
         } = "weight-left-out",
+        /// A node starts at 0 m/s beside others that move, and is an impactor by that.
+        #[error(
+            "it starts at 0 m/s, and is an impactor by that as `{0}` is: impacts are measured by its motion as well; leave \
+             `velocity` out for a body that rests"
+        )]
+        StartsAtRest(String) = "starts-at-rest",
         /// The curve of a law is not that of the rows of its file.
         #[error("{0}")]
         Curve(CurveChange) = "curve",

@@ -253,10 +253,12 @@ pub fn parse_limits(text: &str) -> Result<Vec<Limit>, String> {
                 "`{key}` is a measure of what? write `NAME.{key}{rest}`, as in \"head.hic15<=700\""
             ));
         }
-        return Err(format!(
-            "`{key}` is no measure; `dashpot list measures` shows them; a number of the scene has its bounds \
-             in `design --vary {key}=FROM..TO`"
-        ));
+        let word = key.rsplit_once('.').map_or(key, |own| own.1);
+        let meant = nearest(word, MEASURES.iter().map(|own| own.word)).map_or_else(
+            || format!("a number of a scene has its bounds in `design --vary {key}=FROM..TO`"),
+            |own| format!("did you mean `{own}`?"),
+        );
+        return Err(format!("`{key}` is no measure; `dashpot list measures` shows them; {meant}"));
     };
     if let Some(rest) = by_word {
         let known = || STANDARDS.iter().map(|own| own.word);

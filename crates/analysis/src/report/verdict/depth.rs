@@ -1,6 +1,6 @@
 //! How far everything that has a thickness is pressed.
 
-use dashpot_network::{ConnectionOutputs, parameters::Kind as _};
+use dashpot_network::{ConnectionOutputs, SegmentOutputs, SegmentPlace, parameters::Kind as _};
 
 use super::{Found, Peak};
 use crate::{Compression, MeasureReport, measures::PeakDeformation};
@@ -69,19 +69,29 @@ impl<'r> Found<'r> {
         })
     }
 
-    /// All elements with a thickness but this one, as far as they are kept.
+    /// All elements with a thickness but this one, and the parts of elements that have one, as far as they are kept.
     pub(super) fn layers(self, but: Option<&str>) -> Vec<Layer<'r>> {
-        let all = self.connections().iter().enumerate();
-        let all = all.filter(|own| but != Some(own.1.name.as_str()) && !own.1.is_rigid);
-        let layer = |(at, own): (usize, &'r ConnectionOutputs)| {
-            let thickness = own.thickness?;
+        let compression = |deformation: usize, thickness: f64| {
             let solution = self.0.solution();
             let run = (0.0, solution.end());
-            let compression = solution
-                .keeps(own.deformation)
-                .then(|| Compression::of(solution.signal(own.deformation), run, thickness))?;
-            Some(Layer { element: &own.name, compression, is_on_stop: self.is_on_stop(at) })
+            solution
+                .keeps(deformation)
+                .then(|| Compression::of(solution.signal(deformation), run, thickness))
         };
-        all.filter_map(layer).collect()
+        let layers = |(at, own): (usize, &'r ConnectionOutputs)| {
+            let is_other = but != Some(own.name.as_str());
+            let whole = own.thickness.filter(|_| is_other).and_then(|thickness| {
+                let compression = compression(own.deformation, thickness)?;
+                Some(Layer { element: &own.name, compression, is_on_stop: self.is_on_stop(at) })
+            });
+            let part = move |part: &'r SegmentOutputs| {
+                let SegmentPlace::Branch { path } = &part.place else { return None };
+                let compression = compression(part.deformation, part.thickness)?;
+                Some(Layer { element: path, compression, is_on_stop: false })
+            };
+            whole.into_iter().chain(own.segments.iter().filter_map(part)).collect::<Vec<_>>()
+        };
+        let all = self.connections().iter().enumerate().filter(|own| !own.1.is_rigid);
+        all.flat_map(layers).collect()
     }
 }

@@ -37,7 +37,7 @@ pub struct Verdict<'r> {
     pub peak_acceleration: Option<Peak<'r>>,
     /// The pad with the least left of its thickness, or else the largest deformation.
     pub depth: Option<Depth<'r>>,
-    /// All other elements that have a thickness, in the order of the network.
+    /// All other elements and parts of elements that have a thickness, in the order of the network.
     pub layers: Vec<Layer<'r>>,
     /// The largest energy that an element takes up.
     pub energy: Option<TakenUp<'r>>,

@@ -45,7 +45,7 @@ pub(super) fn lines(answer: &Answer, choice: &Choice, best: &Design) -> Vec<Line
             Some(Side::High) => ", AT ITS UPPER BOUND",
             None => "",
         };
-        let value = number_text(asked, best, at, best.values[at]);
+        let value = number_text(asked, best, at);
         let [low, high] = own.bounds.map(|bound| own.short(bound, MOST));
         add("design", format!("{} = {value}, between {low} and {high}{at_bound}", own.name));
     }
@@ -209,10 +209,24 @@ fn borne_text(own: &Borne) -> String {
     )
 }
 
-/// A number of a design as people read it, and as they may write it again: rounded so that what holds it is kept.
-fn number_text(asked: &Asked, design: &Design, at: usize, value: f64) -> String {
+/// A number of a design as people read it, and as they may write it again: rounded so that what holds it is kept, and that
+/// numbers with a given sum have it.
+fn number_text(asked: &Asked, design: &Design, at: usize) -> String {
     let own = &asked.numbers[at];
-    let written = value / own.one;
+    match asked.totals.iter().find(|total| total.of.last() == Some(&at)) {
+        None => own.text(rounded(asked, design, at), DIGITS),
+        Some(total) => {
+            let others = total.of.iter().filter(|other| **other != at);
+            let others: f64 = others.map(|other| rounded(asked, design, *other)).sum();
+            own.short(total.sum - others, DIGITS + 2)
+        }
+    }
+}
+
+/// A number of a design in SI units, of [`DIGITS`] digits in the unit of the scene.
+fn rounded(asked: &Asked, design: &Design, at: usize) -> f64 {
+    let own = &asked.numbers[at];
+    let written = design.values[at] / own.one;
     let text = format!("{written:.*e}", DIGITS - 1);
     let rounded: f64 = text.parse().unwrap_or(written);
     let step = text.split_once('e').map_or("0", |own| own.1);
@@ -222,7 +236,7 @@ fn number_text(asked: &Asked, design: &Design, at: usize, value: f64) -> String 
         Some(Side::High) if rounded < written => rounded + step,
         _ => rounded,
     };
-    own.text(towards * own.one, DIGITS)
+    towards * own.one
 }
 
 /// A value of what is made least, as people read it.
@@ -233,7 +247,7 @@ pub(super) fn aim_text(
     digits: usize,
 ) -> String {
     match least {
-        Least::Number(at) if digits == DIGITS => number_text(asked, design, *at, value),
+        Least::Number(at) if digits == DIGITS => number_text(asked, design, *at),
         Least::Number(at) => asked.numbers[*at].text(value, digits),
         Least::Step(at) => {
             let si = asked.among[*at].options.iter().flatten().next().map_or("", |own| &own.si);

@@ -401,7 +401,9 @@ fn wrong(fault: &NetworkFault, curves: &[(Asked, Target)]) -> CliError {
 /// The numbers that the command line names, with their bounds.
 fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>, CliError> {
     let wanted = |name: &str| {
-        let reason = format!("`{name}` wants bounds above zero, such as \"{name}=10..1000 kN/m\"");
+        let unit = tunables.find(name).map_or("kN/m", |at| &*tunables.all()[at].unit);
+        let reason =
+            format!("`{name}` wants bounds above zero, such as \"{name}=10..1000 {unit}\"");
         CliError::WrongSetting { name: "--vary".to_owned(), reason }
     };
     let is_range = |own: &&String| {

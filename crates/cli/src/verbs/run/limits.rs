@@ -226,6 +226,7 @@ fn advice(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         | Reason::NoValue
         | Reason::OtherAxes
         | Reason::Clipped
+        | Reason::Unit
         | Reason::Scatter => return None,
         Reason::Cut | Reason::Error => return Some("a larger `--sample` may decide".to_owned()),
     }

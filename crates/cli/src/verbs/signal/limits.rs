@@ -4,7 +4,7 @@ use dashpot_analysis::{Bound, Judgement, Limit, Reason, limits::standards::stand
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{
-    Analysis, Measure, Part, Reading, Reason as Open, Truth, location_of_resultant,
+    Analysis, Defect, Measure, Part, Reading, Reason as Open, Truth, location_of_resultant,
 };
 use dashpot_units::{parse_dimension, si_unit};
 
@@ -300,6 +300,11 @@ impl Signals {
         };
         if contradiction.is_some() || against.is_some() {
             judgement = Judgement::Undecided(Reason::OtherAxes);
+        }
+        let is_odd =
+            |own: &Defect| matches!(own, Defect::OddPeak { .. } | Defect::OddLength { .. });
+        if tests.iter().any(|own| own.0.analysis.defects.iter().any(is_odd)) {
+            judgement = Judgement::Undecided(Reason::Unit);
         }
         let tests = tests.len();
         Some(Verdict { limit, signal, tests, known, judgement, resultant, contradiction, against })

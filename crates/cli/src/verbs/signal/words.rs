@@ -219,6 +219,7 @@ fn undecided(own: &Verdict<'_>, reason: Reason, found: impl Fn(&Reading) -> Stri
     match reason {
         Reason::OtherAxes => other_axes(own, found),
         Reason::Clipped => "the record is clipped".to_owned(),
+        Reason::Unit => "no impact is like that: is the unit right?".to_owned(),
         Reason::Cut => "the record begins or ends within the pulse".to_owned(),
         Reason::NoValue => own.known.value.err().map_or(String::new(), |own| own.to_string()),
         _ => "the limit is within the error".to_owned(),
