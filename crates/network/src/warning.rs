@@ -34,6 +34,16 @@ dashpot_units::words! {
             .elements[0], .elements[1]
         )]
         SharedContacts { elements: [String; 2] } = "shared-contacts",
+        /// A load or a motion jumps and moves what has no mass beside a part that dissipates.
+        #[error(
+            "what moves `{element}` jumps at {time} s, and there is no mass beside it: its force is followed there, but not the \
+             work that it takes within the jump, which energies leave out; a short rise in place of the jump counts it"
+        )]
+        WithinJump {
+            element: String,
+            /// When for the first time \[s\].
+            time: f64,
+        } = "within-jump",
         /// A body strikes a layer in which a dashpot leads from face to face.
         #[error(
             "{0}, in which a dashpot leads from face to face: the force at the first touch \
@@ -87,7 +97,9 @@ impl NetworkWarning {
     /// Names of the elements, nodes and loads that it is about, the first one first.
     pub fn names(&self) -> Vec<&str> {
         match self {
-            Self::RigidlyLinked { element } | Self::Reversed { element } => vec![element],
+            Self::RigidlyLinked { element }
+            | Self::Reversed { element }
+            | Self::WithinJump { element, .. } => vec![element],
             Self::IdleRestitution { element, node, .. } => {
                 [element].into_iter().chain(node).map(String::as_str).collect()
             }

@@ -426,7 +426,8 @@ impl<'r> Found<'r> {
         let is_small = |measure_report: &&MeasureReport| {
             let is_rounding =
                 measure_report.error.is_some_and(|error| error <= ROUNDING * measure_report.size);
-            measure_report.is_next_to_nothing() && !is_rounding
+            let is_infinite = measure_report.error == Some(f64::INFINITY);
+            measure_report.is_next_to_nothing() && !is_rounding && !is_infinite
         };
         let is_nothing = |measure_report: &MeasureReport| measure_report.value == Some(0.0);
         let (small, others): (Vec<_>, Vec<_>) = known.iter().copied().partition(is_small);

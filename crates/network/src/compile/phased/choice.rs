@@ -45,6 +45,8 @@ fn ways() -> impl Iterator<Item = Way> {
 struct Instant<'a> {
     /// When it is \[s\].
     time: f64,
+    /// Whether it is a jump within which time stands still.
+    is_jump: bool,
     /// The state, before impacts.
     before: State,
     /// The phases that end.
@@ -87,7 +89,8 @@ fn at_fault(searches: &[Search], faults: &[Fault]) -> Vec<usize> {
 }
 
 impl PhasedNetwork {
-    /// The phases that hold after `time`, at which the exits `fired` were reached in `phases`.
+    /// The phases that hold after `time`, at which the exits `fired` were reached in `phases`; within a jump those that the
+    /// jump leads to.
     ///
     /// Impacts come first. Then phases are looked for in which every part stays where it is, or
     /// begins to move away from its exits: judged by the first derivative of what each exit watches
@@ -98,12 +101,12 @@ impl PhasedNetwork {
     pub(super) fn choose(
         &self,
         state: &mut State,
-        time: f64,
+        (time, is_jump): (f64, bool),
         phases: &[Phase],
         fired: &[(usize, usize)],
         threshold: f64,
     ) -> Result<(Choice, Vec<Switch>), SolveError> {
-        let instant = self.instant(state, time, phases, fired, threshold);
+        let instant = Instant { is_jump, ..self.instant(state, time, phases, fired, threshold) };
         let groups = self.groups(&instant.options).into_iter();
         let mut searches: Vec<Search> =
             groups.map(|group| Search::new(group, &instant.options)).collect();
@@ -199,6 +202,7 @@ impl PhasedNetwork {
         let deformations = reached.iter().filter(|own| own.1.watched == Watched::Deformation);
         Instant {
             time,
+            is_jump: false,
             before: state.clone(),
             phases,
             options,
@@ -225,6 +229,7 @@ impl PhasedNetwork {
         let parted: Vec<_> = parted.map(|impact| (impact.part, impact.sides)).collect();
         let judge = Judge {
             time: instant.time,
+            is_jump: instant.is_jump,
             state,
             before: instant.phases,
             on_level: &instant.on_level,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_dae::{Derivatives, Output, PredictedEvent, System, derivatives};
+use dashpot_dae::{Derivatives, Output, PredictedEvent, System, Waveform, derivatives};
 
 use super::{
     super::{bodies::Groups, transfer::State},
@@ -61,6 +61,8 @@ pub(super) enum Verdict {
 pub(super) struct Judge<'a> {
     /// The instant \[s\].
     pub(super) time: f64,
+    /// Whether it is a jump within which time stands still: what moves there does so by the jump.
+    pub(super) is_jump: bool,
     pub(super) state: &'a State,
     /// The phases that end.
     pub(super) before: &'a [Phase],
@@ -115,7 +117,13 @@ impl PhasedNetwork {
             Err(errors) => return Verdict::Refused(errors.to_string()),
         };
         let unknowns = mode.transfer.unknowns(judge.state);
-        let system = mode.system_from(judge.time);
+        let mut system = mode.system_from(judge.time);
+        if judge.is_jump {
+            let mut still = System::clone(&system);
+            let values = system.waveforms.iter().map(|own| Waveform::constant(own.value(0.0)));
+            still.waveforms = values.collect();
+            system = Arc::new(still);
+        }
         let motion = match derivatives(&system, &unknowns, ORDERS + 1) {
             Ok(motion) => motion,
             Err(error) => return Verdict::Refused(error.to_string()),
@@ -132,12 +140,12 @@ impl PhasedNetwork {
             let again = judge.is_again(part, phases[part], exit);
             let fault = Fault { part, towards: Some(exit.to) };
             let output = mode.system.outputs.at(output);
-            let stays =
-                match judge.stays_after_rebound(part, exit, output, returns[at], system.time_scale)
-                {
-                    Some(stay) => stay,
-                    None => judge.stays(part, &motion, output, exit, again),
-                };
+            let after =
+                judge.stays_after_rebound(part, exit, output, returns[at], system.time_scale);
+            let in_jump = || self.stays_in_jump(part, judge, (&mode, &motion), exit);
+            let stays = after
+                .or_else(in_jump)
+                .unwrap_or_else(|| judge.stays(part, &motion, output, exit, again));
             match stays {
                 Admissible::Yes => {}
                 Admissible::Undecided => doubtful.push(fault),
@@ -158,6 +166,23 @@ impl PhasedNetwork {
         let phases = phases.to_vec();
         let choice = Choice { mode, system, phases, unknowns, levels, predicted, tried: 1 };
         Verdict::Holds(Box::new(choice), doubtful)
+    }
+
+    /// Whether a rate is on the inner side of its exit's level within a jump, where the jump tells.
+    fn stays_in_jump(
+        &self,
+        part: usize,
+        judge: &Judge<'_>,
+        (mode, motion): (&Mode, &Derivatives),
+        exit: &Exit,
+    ) -> Option<Admissible> {
+        let at = self.parts[part];
+        let new = mode.transfer.deformation(at, &motion.values[0], &motion.inputs[0]);
+        let moved = new - judge.state.deformation[at];
+        let is_seen = moved.abs() > judge.criteria[part].threshold * judge.size.0.max(new.abs());
+        let tells = judge.is_jump && exit.watched == Watched::Rate && is_seen;
+        let stays = if (moved > 0.0) == exit.rising { Admissible::No } else { Admissible::Yes };
+        tells.then_some(stays)
     }
 
     /// The parts that an event leaves less deep than they were, in a phase that only goes deeper.
@@ -259,7 +284,7 @@ pub(super) fn seen(threshold: f64, size: f64) -> f64 {
 impl Mode {
     /// The system with time counted from `time` \[s\].
     pub(super) fn system_from(&self, time: f64) -> Arc<System> {
-        let moves = |own: &dashpot_dae::Waveform| {
+        let moves = |own: &Waveform| {
             own.pieces().len() > 1 || !own.pieces().iter().all(|piece| piece.is_constant(0))
         };
         if time == 0.0 || !self.system.waveforms.iter().any(moves) {

@@ -42,18 +42,17 @@ pub(super) fn through_contacts(
     if errors.is_empty() { Ok(()) } else { Err(NetworkErrors(errors)) }
 }
 
-/// When loads and motions jump that move what has no mass \[s\], where a part watches its rate: a rate does not tell of it.
+/// When loads and motions jump that move what has no mass \[s\], where a part watches its rate, and that part: a rate does not
+/// tell of a jump.
 pub(super) fn unseen(
     network: &Network,
     expansion: &Expansion,
     (parts, apart): (&[usize], &Bodies),
     duration: f64,
-) -> Vec<f64> {
-    let parts = parts.iter().map(|&at| &expansion.primitives[at]);
-    let watching: Vec<[usize; 2]> = parts
-        .filter(|own| own.needs_rate())
-        .map(|own| own.ends.map(|joint| apart.of_joint[joint]))
-        .collect();
+) -> Vec<(f64, usize)> {
+    let watching = parts.iter().filter(|at| expansion.primitives[**at].needs_rate());
+    let ends = |at: usize| expansion.primitives[at].ends.map(|joint| apart.of_joint[joint]);
+    let watching: Vec<(usize, [usize; 2])> = watching.map(|&at| (at, ends(at))).collect();
     let motions = network.nodes.iter().enumerate().filter_map(|(at, node)| match &node.support {
         Support::Prescribed(motion) => Some((apart.of_joint[at], motion)),
         _ => None,
@@ -62,13 +61,12 @@ pub(super) fn unseen(
     let loads = loads.filter(|&(body, _)| apart.all[body].is_massless());
     let mut times = Vec::new();
     for (body, waveform) in motions.chain(loads).filter(|_| !watching.is_empty()) {
-        let jumping = jumps(network, waveform, duration).into_iter();
-        let jumping: Vec<f64> = jumping.filter(|&time| time > 0.0 && time < duration).collect();
         let moved = moved_at_once(expansion, apart, body);
-        if watching.iter().flatten().any(|&end| moved[end]) {
-            times.extend(jumping);
-        }
+        let part = watching.iter().find(|own| own.1.into_iter().any(|end| moved[end]));
+        let jumping = jumps(network, waveform, duration).into_iter().filter(|own| *own < duration);
+        times.extend(part.into_iter().flat_map(|own| jumping.clone().map(|time| (time, own.0))));
     }
+    times.sort_by(|one, other| one.0.total_cmp(&other.0));
     times
 }
 

@@ -25,7 +25,7 @@ use std::{
 };
 
 use dashpot_dae::{
-    Direction, Guard, IntervalEnd, ModeInterval, SolveError, Switch, Switching, System,
+    Direction, Guard, IntervalEnd, ModeInterval, SolveError, Switch, Switching, System, derivatives,
 };
 
 pub use self::idle::IdleSlider;
@@ -37,7 +37,7 @@ use super::{
     transfer::{State, Transfer},
 };
 use crate::{
-    Network, NetworkError, NetworkErrors, Support,
+    Network, NetworkError, NetworkErrors, NetworkWarning, Support,
     elements::Law,
     phases::{Exit, Phase, PhaseLaw, Phases, Watched},
 };
@@ -95,9 +95,9 @@ pub(super) fn compile(
     let apart = start::bodies_apart(&network, &expansion, &parts, duration).map_err(loose)?;
     jumps::through_contacts(&network, &expansion, (&parts, &apart), duration)?;
     let (start, first) = start::state(&network, &expansion, &parts, &apart, duration)?;
-    let jumps = jumps::unseen(&network, &expansion, (&parts, &apart), duration);
+    let unseen = jumps::unseen(&network, &expansion, (&parts, &apart), duration);
     let mut phased = PhasedNetwork {
-        jumps,
+        jumps: unseen.iter().map(|own| own.0).collect(),
         network,
         expansion,
         parts,
@@ -116,6 +116,10 @@ pub(super) fn compile(
         let body = &phased.apart.all[phased.apart.of_joint[at]];
         node.fall = start::time_of_fall(&phased.network, &phased.expansion, body);
     }
+    compiled.warnings.extend(unseen.first().map(|&(time, part)| {
+        let element = phased.expansion.primitives[part].name.clone();
+        NetworkWarning::WithinJump { element, time }
+    }));
     phased.join_bodies(&mut compiled);
     phased.modes = Mutex::default();
     Ok((compiled, phased))
@@ -240,6 +244,27 @@ impl PhasedNetwork {
         Ok(Mode { system: Arc::new(system), transfer, exits, guards, of_guard, kinks })
     }
 
+    /// The phases that hold after `time`. Where places jump then, that comes first, as if time stood still: what goes on from
+    /// there has the depth that it was pressed to by the jump.
+    fn through(
+        &self,
+        state: &mut State,
+        time: f64,
+        (phases, fired): (&[Phase], &[(usize, usize)]),
+        threshold: f64,
+    ) -> Result<(Choice, Vec<Switch>), SolveError> {
+        if !self.jumps.contains(&time) {
+            return self.choose(state, (time, false), phases, fired, threshold);
+        }
+        let (jumped, mut switches) = self.choose(state, (time, true), phases, fired, threshold)?;
+        let solved = derivatives(&jumped.system, &jumped.unknowns, 0)?;
+        *state = jumped.mode.transfer.read(&solved.values[0], &solved.inputs[0], &self.start);
+        self.go_on(state, time);
+        let (choice, more) = self.choose(state, (time, false), &jumped.phases, &[], threshold)?;
+        switches.extend(more);
+        Ok((Choice { tried: choice.tried + jumped.tried, ..choice }, switches))
+    }
+
     /// The interval that begins at `time` with these phases.
     fn interval(time: f64, choice: Choice, switches: Vec<Switch>) -> ModeInterval {
         let Choice { mode, system, phases, unknowns, levels, predicted, tried } = choice;
@@ -319,7 +344,7 @@ impl Switching for PhasedNetwork {
     fn first(&self, threshold: f64) -> Result<ModeInterval, SolveError> {
         let choose = |threshold: f64| {
             let mut state = self.start.clone();
-            self.choose(&mut state, 0.0, &self.first, &[], threshold)
+            self.through(&mut state, 0.0, (&self.first, &[]), threshold)
         };
         // The start has no error of the method. What parts at once by an impact is followed as at any other instant.
         let (choice, switches) = match choose(threshold.min(GIVEN)) {
@@ -344,7 +369,7 @@ impl Switching for PhasedNetwork {
         let fired: Vec<(usize, usize)> =
             end.fired.iter().filter_map(|&guard| mode.of_guard.get(guard).copied()).collect();
         let (choice, switches) =
-            self.choose(&mut state, end.time, &phases, &fired, end.threshold)?;
+            self.through(&mut state, end.time, (&phases, &fired), end.threshold)?;
         Ok(Self::interval(end.time, choice, switches))
     }
 }
