@@ -84,12 +84,17 @@ impl<'r> Found<'r> {
                 let compression = compression(own.deformation, thickness)?;
                 Some(Layer { element: &own.name, compression, is_on_stop: self.is_on_stop(at) })
             });
+            // One that is as thick as all of it is no layer of it.
+            let is_layer = |part: &&SegmentOutputs| own.thickness != Some(part.thickness);
             let part = move |part: &'r SegmentOutputs| {
                 let SegmentPlace::Branch { path } = &part.place else { return None };
                 let compression = compression(part.deformation, part.thickness)?;
                 Some(Layer { element: path, compression, is_on_stop: false })
             };
-            whole.into_iter().chain(own.segments.iter().filter_map(part)).collect::<Vec<_>>()
+            whole
+                .into_iter()
+                .chain(own.segments.iter().filter(is_layer).filter_map(part))
+                .collect::<Vec<_>>()
         };
         let all = self.connections().iter().enumerate().filter(|own| !own.1.is_rigid);
         all.flat_map(layers).collect()
