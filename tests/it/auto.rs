@@ -250,6 +250,8 @@ fn the_time_that_a_budget_reaches_is_counted_from_the_start_of_the_run() {
         }
         let last = reached.last().copied().unwrap_or(0.0);
         assert!(last > 1.0 && last <= 5.0, "{method}: {reached:?}");
+        // To read all measures is more work than the steps were, and has a limit, too.
+        assert!(method != "bdf" || last > 5.0 - 1e-9, "{reached:?}");
     }
 }
 

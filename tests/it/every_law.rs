@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use dashpot::{
-    analysis::{RunError, Solve, SolveSettings},
+    analysis::{Judgement, RunError, Solve, SolveSettings},
     network::{
         Element,
         elements::{ELEMENTS, Foundation, Indenter, Shape},
@@ -289,4 +289,38 @@ fn a_jump_of_a_load_is_the_limit_of_a_ramp_where_there_is_no_mass() {
         }
     }
     assert_eq!(count, 108);
+}
+
+#[test]
+fn energies_that_leave_out_the_work_within_a_jump_have_no_error_and_pass_no_limit() {
+    let run = |rise: f64| {
+        let scene = format!(
+            "[nodes]\nplate = {{}}\nhead = {{ mass = 1 }}\n[elements]\n\
+             pad = {{ between = [\"plate\", \"ground\"], friction = \"8 N\" }}\n\
+             weak = {{ between = [\"plate\", \"ground\"], spring = 1e4 }}\n\
+             link = {{ between = [\"head\", \"ground\"], spring = 1e3 }}\n\
+             [measures]\npad = [\"energy-at-end\", \"peak-force\"]\n\
+             [loads.push]\non = \"plate\"\nforce = {{ table = {{ points = [[0, 0], [1e-3, 0], [{:e}, 30], [4e-3, 30]], \
+             outside = \"hold\" }} }}\n\
+             [limits]\n\"pad.energy-at-end\" = {{ max = 10 }}\n\
+             [run]\nduration = \"4 ms\"\n",
+            1e-3 + rise
+        );
+        let read = read(&scene, &ReadOptions::default()).unwrap().value;
+        let report = read.network.solve_with(&read.settings("auto").unwrap()).unwrap();
+        let own = |key: &str| {
+            let measure = report.measures.iter().find(|own| own.key == key).unwrap();
+            (measure.value.unwrap(), measure.error)
+        };
+        let judgement = report.judged()[0].judgement;
+        (own("pad.energy-at-end"), own("pad.peak-force"), judgement)
+    };
+    // Friction of 8 N over the 22 N/(1e4 N/m) that the spring yields.
+    let (energy, force, judgement) = run(1e-4);
+    let error = energy.1.unwrap();
+    assert!((energy.0 - 8.0 * 2.2e-3).abs() <= error && error < 1e-6, "{energy:?}");
+    assert!(force.1.is_some() && judgement == Judgement::Pass);
+    let (energy, force, judgement) = run(0.0);
+    assert!(energy.1.is_none(), "{energy:?}");
+    assert!(force.1.is_some() && matches!(judgement, Judgement::Undecided(_)), "{judgement:?}");
 }

@@ -429,7 +429,7 @@ fn bars_hold(all: &[Record], repeats: u64) {
 #[test]
 fn bars_hold_the_truth_of_noisy_records() {
     let all = records();
-    let some: Vec<Record> = all.iter().copied().step_by(5).collect();
+    let some: Vec<Record> = all.iter().copied().skip(1).step_by(5).collect();
     bars_hold(&some, 40);
 }
 

@@ -37,7 +37,8 @@ dashpot_units::words! {
         /// A load or a motion jumps and moves what has no mass beside a part that dissipates.
         #[error(
             "what moves `{element}` jumps at {time} s, and there is no mass beside it: its force is followed there, but not the \
-             work that it takes within the jump, which energies leave out; a short rise in place of the jump counts it"
+             work that it takes within the jump, so that energies of elements have no error; a short rise in place of the jump \
+             counts it"
         )]
         WithinJump {
             element: String,

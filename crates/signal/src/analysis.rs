@@ -235,14 +235,18 @@ impl Settings {
         let seen = (&part, &clipped[..]);
         let (mut readings, motion, contact) = self.readings(&channel, uncertainty, seen);
         let change = at_rest.as_ref().map_or(0.0, |own| channel.apart(own));
+        let is_more = change > f64::max(noise.extreme(1), ROUNDING * channel.largest().1);
         // Before a filter the noise of the samples at the ends is larger, and odd ends turn about them.
         let at_ends = || Noise::of(&raw, offset.as_ref(), None).extreme(NEAR);
-        let is_open = change > ROUNDING * channel.largest().1 && change > at_ends();
-        if let Some(other) = at_rest.filter(|_| is_open) {
+        let is_open = is_more && change > at_ends();
+        if let Some(other) = at_rest.filter(|_| is_more) {
             let others = self.readings(&other, uncertainty, seen).0;
             for (own, other) in readings.iter_mut().zip(others) {
-                let both = own.value.ok().zip(other.value.ok());
-                own.error += both.map_or(f64::INFINITY, |(one, other)| (one - other).abs());
+                match own.value.ok().zip(other.value.ok()) {
+                    Some((one, other)) => own.error += (one - other).abs(),
+                    None if is_open => own.error = f64::INFINITY,
+                    None => {}
+                }
             }
         }
         Analysis {

@@ -141,8 +141,7 @@ impl Task<'_> {
         run.budget.charge(solution.panels() * READING);
         if self.method.is_exact() && run.budget.is_spent() {
             // Its signals are not followed any more.
-            let (method, time, work) = (self.method.name(), trajectory.t_end, run.budget.done());
-            return Err(SolveError::BudgetSpent { method, time, work });
+            return Err(self.spent(&trajectory, run.budget.done()));
         }
         let missing = solution.missing();
         let known = Some(solution.known()).filter(|_| self.is_single());
@@ -150,7 +149,12 @@ impl Task<'_> {
         Ok((Solved { rtol, threshold, pulls, trajectory, readings, balance, known }, missing))
     }
 
-    /// The measures of a solution, whose signals may not be made before. The observer is told of each.
+    fn spent(&self, trajectory: &Trajectory, work: u64) -> SolveError {
+        SolveError::BudgetSpent { method: self.method.name(), time: trajectory.t_end, work }
+    }
+
+    /// The measures of a solution, whose signals may not be made before. The observer is told of each. To read them may
+    /// be as much work as to solve.
     fn read_under(
         &self,
         solution: &mut Solution<'_>,
@@ -161,6 +165,10 @@ impl Task<'_> {
         let mut read = |entry: &Selected| {
             let reading = entry.measure.read(solution, entry.target);
             solution.make_room();
+            let work = solution.panels().saturating_mul(READING);
+            if work > self.settings.budget {
+                return Err(self.spent(trajectory, work));
+            }
             let is_over = observer.progress(Progress { time, steps }).is_break();
             if is_over { Err(SolveError::Cancelled { time }) } else { Ok(reading) }
         };

@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use dashpot_dae::Run;
 use dashpot_network::{
-    Assembly, ConnectionOutputs, PrimitiveOutputs,
+    Assembly, ConnectionOutputs, NetworkWarning, PrimitiveOutputs,
     parameters::{Kind as _, ParameterKind, Value, WindowWish},
 };
 
@@ -26,7 +26,7 @@ use crate::{
         contacts::{self, meetings_after},
         sliders::idle_times,
     },
-    measures::{ContactTime, Impulse, PeakForce, selection::Selected},
+    measures::{ContactTime, Family, Impulse, PeakForce, selection::Selected},
     memory::is_large,
     report::zeros::settle_zeros,
 };
@@ -163,8 +163,12 @@ fn measures(
     errors: &[Option<f64>],
     cut: Option<f64>,
 ) -> Vec<MeasureReport> {
+    let is_unknown = |own: &NetworkWarning| matches!(own, NetworkWarning::WithinJump { .. });
+    let leaves_out_work = solution.assembly().warnings.iter().any(is_unknown);
     let read = task.selected.iter().zip(readings).zip(errors);
     read.map(|((entry, reading), &error)| {
+        let is_work = entry.measure.applies_to() == Family::Element && entry.measure.unit() == "J";
+        let error = error.filter(|_| !(leaves_out_work && is_work));
         let wish = task.settings.accuracy.of(&entry.key);
         let kind = || largest(solution, energy.turned_over, entry.measure.unit());
         let is_open = is_open(&reading, error, wish, kind);

@@ -17,11 +17,14 @@ const SMEARED: f64 = 2.0;
 const ZERO_OFF: f64 = 0.01;
 const ERRORS: f64 = 15.0;
 
-/// What is left of a record is more than noise beyond so many times that, where it is known; else where the statistic of
-/// Durbin and Watson is below this, which is 2 of noise that is white. Both together show it sooner where noise is stated.
+/// What is left of a record is more than noise beyond so many times that, where its rows tell it; else where the statistic
+/// of Durbin and Watson is below this, which is 2 of noise that is white.
 const NOISY: f64 = 1.5;
 const FOLLOWING: f64 = 1.0;
-const BEYOND_STATED: f64 = 1.25;
+/// It is more than noise that is stated beyond so many times that, as it is rounded, and so many standard deviations of a
+/// mean square, each `√(2/rows)` of it.
+const BEYOND_STATED: f64 = 1.1;
+const BEYOND_CHANCE: f64 = 4.0;
 /// Fewer rows tell no such statistic.
 const FEWEST_FOLLOWING: usize = 20;
 /// More than this part of the peak is much of a record; less than this is no more than the error of solutions.
@@ -50,14 +53,15 @@ pub(super) fn deviation(left: &[f64]) -> f64 {
 /// Whether more is left in rows than noise of a standard deviation that is stated, or else was read, or than any that is
 /// white.
 pub(super) fn is_structured(left: &[f64], stated: Option<f64>, read: Option<f64>) -> bool {
-    let is_beyond = |noise: f64| {
-        left.iter().map(|own| own * own).sum::<f64>() > left.len() as f64 * noise.powi(2)
+    let rows = left.len() as f64;
+    let is_beyond = |square: f64, noise: f64| {
+        left.iter().map(|own| own * own).sum::<f64>() > rows * square * noise * noise
     };
-    let is_following = durbin_watson(left) < FOLLOWING;
+    let by_chance = 1.0 + BEYOND_CHANCE * (2.0 / rows).sqrt();
     match (stated, read) {
-        (Some(noise), _) if is_following => is_beyond(BEYOND_STATED * noise),
-        (Some(noise), _) | (None, Some(noise)) => is_beyond(NOISY * noise),
-        (None, None) => is_following,
+        (Some(noise), _) => is_beyond(by_chance.max(BEYOND_STATED.powi(2)), noise),
+        (None, Some(noise)) => is_beyond(NOISY.powi(2), noise),
+        (None, None) => durbin_watson(left) < FOLLOWING,
     }
 }
 
