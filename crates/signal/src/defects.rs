@@ -120,10 +120,10 @@ dashpot_units::words! {
         #[error("CFC {class} is none of the classes 60, 180, 600 and 1000 of SAE J211-1")]
         OddClass { class: f64 } = "odd-class",
         /// A peak that no impact test has: the unit may be another.
-        #[error("a peak of {} is none of an impact: is the unit right?", shown(*.peak, Dimension::ACCELERATION))]
+        #[error("a peak of {} is not that of an impact: is the unit right?", shown(*.peak, Dimension::ACCELERATION))]
         OddPeak { peak: f64 } = "odd-peak",
         /// A length of a pulse that no impact test has: the unit of time may be another.
-        #[error("a pulse of {} is none of an impact: is the unit of time right?", seconds(*.length))]
+        #[error("a pulse of {} is not that of an impact: is the unit of time right?", seconds(*.length))]
         OddLength { length: f64 } = "odd-length",
         /// A body that comes back faster than it came, or from which more energy comes than was taken.
         #[error(

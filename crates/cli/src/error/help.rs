@@ -109,8 +109,8 @@ impl CliError {
 fn sample_help(fault: &ChannelFault) -> Option<&'static str> {
     Some(match fault {
         ChannelFault::TimeBack { .. } => {
-            "sort the rows by time, and leave one of two rows of the same time; a file of several tests is to be cut \
-             into one for each"
+            "the first column is that of time; sort the rows by it, and leave one of two rows of the same time; a file of \
+             several tests is to be cut into one for each"
         }
         ChannelFault::TooFew { .. } => "look whether the right file was exported, and whole",
         _ => return None,

@@ -61,14 +61,24 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with these column headings.
+    /// A table with these column headings. A column in which nothing stands is left out, unless it is the first.
     pub fn new(
         caption: impl Into<String>,
         header: impl IntoIterator<Item: ToString>,
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Self {
-        let header = header.into_iter().map(|own| own.to_string()).collect();
-        Self { header, ..Self::plain(caption, rows) }
+        let mut own = Self::plain(caption, rows);
+        own.header = header.into_iter().map(|own| own.to_string()).collect();
+        let is_filled =
+            |row: &Vec<String>, at: usize| row.get(at).is_some_and(|cell| !cell.is_empty());
+        for at in (1..own.header.len()).rev() {
+            if own.rows.is_empty() || own.rows.iter().any(|row| is_filled(row, at)) {
+                continue;
+            }
+            own.header.remove(at);
+            own.rows.iter_mut().filter(|row| at < row.len()).for_each(|row| drop(row.remove(at)));
+        }
+        own
     }
 
     /// A table without headings.

@@ -288,7 +288,7 @@ pub(super) fn no_band(own: NoBand) -> &'static str {
         NoBand::OnBound => "a number is on its bound",
         NoBand::Contradicted => "the rows contradict it",
         NoBand::Clipped => "a record is clipped",
-        NoBand::Missed => "what is left is no noise",
+        NoBand::Missed => "more than noise is left",
         NoBand::OtherMinimum => "there is another minimum",
         NoBand::NotDetermined => "not determined",
         _ => "not computed",
@@ -319,7 +319,7 @@ fn unconverged(fit: &NetworkFit) -> Option<String> {
             "the search has not converged: these numbers are not at a minimum, and have no intervals".to_owned(),
         ),
         Convergence::Alone => Some(format!(
-            "the search has not converged: of {} starts one alone leads to this minimum, and there may be a lower one, so \
+            "the search has not converged: only one of {} starts leads to this minimum, and there may be a lower one, so \
              there are no intervals: search from more starts (`--starts`), or within narrower bounds",
             fit.reached[1]
         )),

@@ -110,7 +110,7 @@ impl Seen<'_> {
         let filter =
             if is_filter { "a filter that the record went through (`--cfc`), " } else { "" };
         Some(format!(
-            "the peak of {file} is missed by {}: noise, {filter}or a model that it is not",
+            "the peak of {file} is missed by {}: noise, {filter}or a model that does not describe it",
             percent_signed(off)
         ))
     }
