@@ -10,7 +10,7 @@ use dashpot::{
     scene::{ReadOptions, Scene, read},
 };
 
-use crate::scenes::scene_paths;
+use crate::{cli, scenes::scene_paths};
 
 const METHODS: [&str; 4] = ["exact", "bdf", "esdirk34", "tr-bdf2"];
 
@@ -252,6 +252,26 @@ fn the_time_that_a_budget_reaches_is_counted_from_the_start_of_the_run() {
         assert!(last > 1.0 && last <= 5.0, "{method}: {reached:?}");
         // To read all measures is more work than the steps were, and has a limit, too.
         assert!(method != "bdf" || last > 5.0 - 1e-9, "{reached:?}");
+    }
+}
+
+#[test]
+fn methods_of_one_run_share_what_it_may_take() {
+    let text = "[nodes]\ndrive = { motion = { sine = { amplitude = \"0.5 mm\", frequency = \"2 Hz\" } } }\n\
+                slide = { mass = \"180 kg\" }\n[elements]\n\
+                screw = { between = [\"drive\", \"slide\"], spring = \"4 MN/m\" }\n\
+                guides = { between = [\"slide\", \"ground\"], friction = \"600 N\" }\n[run]\nduration = \"500 s\"\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = cli::file(&folder, "scene.toml", text);
+    let path = path.to_str().unwrap();
+    let said = cli::run(&["run", path, "--budget", "2e6", "--method", "bdf,exact,esdirk34"]);
+    let said = cli::err(&said);
+    let words: Vec<&str> = said.split_whitespace().collect();
+    let after = words.windows(3).filter(|own| own[0] == "after" && own[2] == "units");
+    let work: Vec<f64> = after.map(|own| own[1].parse().unwrap()).collect();
+    assert_eq!(work.len(), 3, "{said}");
+    for (work, granted) in work.iter().zip([2e6, 1e6, 5e5]) {
+        assert!((1.0..1.3).contains(&(work / granted)), "{work} of {granted}: {said}");
     }
 }
 

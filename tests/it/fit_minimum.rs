@@ -184,3 +184,33 @@ fn a_model_that_begins_too_late_takes_no_rise_for_noise() {
         }
     }
 }
+
+/// A drop with gravity, which the scene has not: the fitted zero makes up for it, against 360 rows that tell another one.
+#[test]
+fn a_zero_that_makes_up_for_a_wrong_model_is_no_noise() {
+    let ([spring, dashpot], gravity, zero) = ([45e3, 220.0], 9.80665, 0.4 * 9.80665);
+    let rate = 0.5 * dashpot / MASS;
+    let omega = f64::sqrt(spring / MASS - rate * rate);
+    let (mut stream, mut rows) = (Stream::new(3), "t [s],acc [m/s^2]\n".to_owned());
+    let rest = MASS * gravity / spring;
+    let mut is_left = false;
+    for at in 0..1200 {
+        let time = f64::from(at - 360) / RATE - 1.3e-5;
+        let (sine, cosine) = (omega * time).sin_cos();
+        let decayed = (-rate * time).exp();
+        let turned = (SPEED - rate * rest) / omega;
+        let way = rest + decayed * (turned * sine - rest * cosine);
+        let speed = decayed
+            * ((omega * turned + rate * rest) * cosine + (omega * rest - rate * turned) * sine);
+        let push = (spring * way + dashpot * speed) / MASS;
+        is_left |= time > 0.0 && push < 0.0;
+        let push = if time < 0.0 || is_left { 0.0 } else { push };
+        writeln!(rows, "{time:.7},{:.5}", zero + push + 0.2 * normal(&mut stream)).unwrap();
+    }
+    let fit = fitted(&rows);
+    let noise = fit["tests"][0]["noise_at_rest"].as_f64().unwrap();
+    assert!((noise / 0.2 - 1.0).abs() < 0.3, "{noise} m/s²");
+    for name in ["K", "C"] {
+        assert_eq!(fit["parameters"][name]["identified"].as_bool(), Some(false), "{fit}");
+    }
+}

@@ -75,23 +75,30 @@ fn limits_that_exclude_each_other_are_refused() {
 
 #[test]
 fn what_follows_the_impact_and_exceeds_a_limit_leaves_it_undecided() {
-    // The second body meets a wall of stiffness k after the impact: V √(k m) is 141.4 g there, 24.98 g before.
-    let scene = |limit: &str| {
+    // The second body meets a wall of stiffness k after the impact: V √(k m) is 144.2 g there, 24.98 g before. A half-sine of
+    // a and T has a HIC of 0.4146 a^2.5 T and a severity index of 0.4577 a^2.5 T: 16.6 and 460, 18 and 526 of both.
+    let scene = |key: &str, limit: &str| {
         format!(
             "[nodes]\na = {{ mass = \"1 kg\", velocity = \"2 m/s\" }}\nb = {{ mass = \"1 kg\" }}\n[elements]\n\
              pad = {{ between = [\"a\", \"b\"], spring = \"30 kN/m\" }}\n\
              wall = {{ between = [\"b\", \"ground\"], series = [{{ contact = {{ gap = \"300 mm\" }} }}, {{ spring \
-             = \"500 kN/m\" }}] }}\n[effects]\nseparation.pad = {{}}\n[limits]\nb.peak-acceleration = \
-             \"{limit}\"\n[run]\nduration = \"200 ms\"\n"
+             = \"500 kN/m\" }}] }}\n[effects]\nseparation.pad = {{}}\n[limits]\nb.{key} = \
+             {limit}\n[run]\nduration = \"200 ms\"\n"
         )
     };
     let folder = TempDir::new().unwrap();
-    for (limit, verdict, reason) in [
-        ("20 g", "fail", Value::Null),
-        ("60 g", "undecided", "harder-outside".into()),
-        ("150 g", "pass", Value::Null),
+    for (key, limit, verdict, reason) in [
+        ("peak-acceleration", "\"20 g\"", "fail", Value::Null),
+        ("peak-acceleration", "\"60 g\"", "undecided", "harder-outside".into()),
+        ("peak-acceleration", "\"150 g\"", "pass", Value::Null),
+        ("hic15", "16", "fail", Value::Null),
+        ("hic15", "450", "undecided", "harder-outside".into()),
+        ("hic15", "470", "pass", Value::Null),
+        ("severity-index", "515", "undecided", "harder-outside".into()),
+        ("severity-index", "540", "pass", Value::Null),
+        ("clip-3ms", "\"30 g\"", "undecided", "harder-outside".into()),
     ] {
-        let path = file(&folder, "scene.toml", &scene(limit)).to_str().unwrap().to_owned();
+        let path = file(&folder, "scene.toml", &scene(key, limit)).to_str().unwrap().to_owned();
         let found = json(&["run", &path, "--json"])["runs"][0]["limits"][0].clone();
         assert_eq!((&found["verdict"], &found["reason"]), (&verdict.into(), &reason), "{found}");
         let output = run(&["run", &path, "--enforce"]);

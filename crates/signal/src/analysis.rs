@@ -162,7 +162,10 @@ impl Settings {
         // A velocity or displacement may stand anywhere before an impact.
         let has_zero = matches!(raw.dimension(), Dimension::ACCELERATION | Dimension::FORCE);
         let behind = (has_zero && offset.is_none() && removed.is_none())
-            .then(|| Offset::behind_pulse(raw).filter(Offset::is_there))
+            .then(|| {
+                let behind = Offset::behind_pulse(raw).filter(Offset::is_there);
+                behind.or_else(|| Offset::at_both_ends(raw))
+            })
             .flatten();
         let error = offset.filter(|_| has_zero || self.offset == Removal::Found);
         let error = error.map(|own| rest.abs() + own.error);

@@ -42,9 +42,9 @@ dashpot_units::words! {
             shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
         )]
         Offset { value: f64, error: f64, share: f64, unit: Dimension } = "offset",
-        /// A record that begins with the pulse, and does not read zero at rest behind it.
+        /// A record in which no rest before the pulse tells the zero, and that does not read zero behind it, or at both its ends.
         #[error(
-            "nothing is at rest before its pulse, and behind it {level} is read ({part} of the peak): its zero may be \
+            "no rest before its pulse tells its zero, and where it ends {level} is read ({part} of the peak): it may be \
              off by that, which the errors hold; record some ms before the impact, or say what to take off, \
              `--offset \"{level}\"`",
             level = shown(*.value, *.unit), part = percent(*.share, 2)

@@ -9,6 +9,10 @@ const BEGUN: f64 = 0.05;
 const RISEN: f64 = 0.5;
 /// What scatters by more than this part of the peak is not at rest.
 const RESTLESS: f64 = 0.03;
+/// Samples on either side of one that are taken with it where noise hides a rest.
+const AROUND: usize = 4;
+/// Ends that read more than so many times their scatter do not rise or fall from zero, which makes that 1.7.
+const LEVEL: f64 = 3.0;
 /// Fewer samples before the pulse tell no offset.
 const FEWEST: usize = 8;
 /// What is further out than this part of the peak, so many samples in a row, is an impact of its own, and before the pulse
@@ -48,8 +52,19 @@ impl Offset {
     /// several impacts it is that before the first one.
     ///
     /// The record before the pulse ends as long before the first passage of 5 % of the peak as it takes from there
-    /// to 50 %, so that a gentle beginning is none of it.
+    /// to 50 %, so that a gentle beginning is none of it. Where noise hides that, means of nine samples tell where it ends.
     pub fn before_pulse(channel: &Channel) -> Option<Self> {
+        Self::at_rest(channel).or_else(|| {
+            let values = channel.values();
+            let around =
+                |at: usize| &values[at.saturating_sub(AROUND)..(at + AROUND + 1).min(values.len())];
+            let smooth = (0..values.len()).map(|at| mean(around(at))).collect();
+            let rest = Self::at_rest(&channel.with_values(smooth))?;
+            Self::within(channel, rest.window)
+        })
+    }
+
+    fn at_rest(channel: &Channel) -> Option<Self> {
         let (mut times, mut values) = (channel.times(), channel.values());
         // The peak is counted from a first guess, which a large offset spoils otherwise.
         let guess = median(&values[..values.len().div_ceil(50)]);
@@ -84,6 +99,20 @@ impl Offset {
         let own = Self::before_pulse(&channel.reversed())?;
         let (from, to) = own.window;
         Some(Self { window: (-to, -from), drift: -own.drift, ..own })
+    }
+
+    /// What the first eight samples and the last ones both read, where they are level and no longer rest is there; the smaller
+    /// of both.
+    pub(crate) fn at_both_ends(channel: &Channel) -> Option<Self> {
+        let (times, values) = (channel.times(), channel.values());
+        let last = values.len().checked_sub(FEWEST).filter(|last| *last >= FEWEST)?;
+        let own = |from: usize, to: usize| {
+            Self::of(&times[from..to], &values[from..to], channel.resolution())
+        };
+        let ends = [own(0, FEWEST), own(last, values.len())];
+        let is_level = |own: &Self| own.value.abs() > LEVEL * own.noise;
+        let is_one = ends[0].value * ends[1].value > 0.0 && ends.iter().all(is_level);
+        ends.into_iter().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs())).filter(|_| is_one)
     }
 
     /// The same within a window \[s\] in which something else tells that nothing has begun; `None` of fewer than eight

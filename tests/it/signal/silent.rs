@@ -166,3 +166,44 @@ fn noise_at_the_ends_of_a_record_is_no_pulse_that_is_smeared() {
         assert!(smeared((0.0, 60.0), noise, 1) && smeared((-30.0, 6.0), noise, 1), "{noise}");
     }
 }
+
+#[test]
+fn a_rest_beneath_noise_tells_the_zero() {
+    // Noise of 4 and 5 % of the peak, before a filter that leaves a tenth of it, on 20 ms of rest.
+    let folder = TempDir::new().unwrap();
+    for (seed, noise) in [(1, 0.04), (2, 0.05), (3, 0.04), (4, 0.05)] {
+        let mut state = seed;
+        let text = record((-20.0, 30.0), &mut |time| {
+            HEIGHT * (half_sine(time) + noise * normal(&mut state)) - 5.0
+        });
+        let path = write(&folder, "noisy.csv", &text);
+        let all = json(&["signal", &path, "--cfc", "180", "--json"]);
+        assert!(has(&all, "offset"), "{all}");
+        let all = json(&["signal", &path, "--cfc", "180", "--offset", "auto", "--json"]);
+        let removed = number(&all["channels"][0]["removed"]) / STANDARD_GRAVITY;
+        assert!((removed + 5.0).abs() < 4.0 * noise * HEIGHT / 20.0, "{removed} g");
+    }
+}
+
+#[test]
+fn a_zero_that_both_ends_are_off_from_is_in_the_bars() {
+    // A millisecond at each end is too short for a rest.
+    let folder = TempDir::new().unwrap();
+    let truth = 0.414_645_65 * HEIGHT.powf(2.5) * 1e-3 * LENGTH;
+    for off in [2.0, -3.0] {
+        let mut state = 7;
+        let text = record((-1.0, LENGTH + 1.0), &mut |time| {
+            HEIGHT * half_sine(time) - off + 0.1 * normal(&mut state)
+        });
+        let path = write(&folder, "short.csv", &text);
+        let all = json(&["signal", &path, "--json"]);
+        assert!(has(&all, "unknown-zero"), "{all}");
+        let own = measure(&all, "hic15");
+        let (value, error) = (number(&own["value"]), number(&own["error"]));
+        assert!((value - truth).abs() <= error && error < 0.1 * truth, "{value} ± {error}");
+    }
+    // What begins and ends with its pulse reads nothing there, and is as it was.
+    let text = record((0.0, LENGTH), &mut |time| HEIGHT * half_sine(time));
+    let all = json(&["signal", &write(&folder, "cut.csv", &text), "--json"]);
+    assert!(!has(&all, "unknown-zero"), "{all}");
+}

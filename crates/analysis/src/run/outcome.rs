@@ -73,11 +73,10 @@ pub(super) fn report(
     let events = events::collect(run, assembly, &solved.trajectory, &contacts, &instants, release);
     let mut warnings = warnings::collect(&Findings {
         solution: &solution,
-        accuracy: &settings.accuracy,
+        task,
         measures: &measures,
         contacts: &contacts,
         energy,
-        estimate: settings.estimate,
         open_end: open_end.as_ref(),
         obstacle: obstacle.as_ref(),
         guards: &run.guards,

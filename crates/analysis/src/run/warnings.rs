@@ -6,35 +6,34 @@ use dashpot_dae::{Direction, Guard, SolveError};
 use dashpot_network::{
     ConnectionOutputs, NodeId, PrimitiveOutputs, SegmentOutputs, SegmentPlace,
     effects::Gravity,
-    parameters::{Kind as _, WindowWish},
+    parameters::{Kind as _, Value, WindowWish},
 };
 
 use super::preloads;
 use crate::{
-    Accuracy, Beyond, Compression, ContactReport, Harder, Ledger, MeasureReport, Missed, Note,
-    Solution, Through, Warning,
+    Beyond, Compression, ContactReport, Harder, Ledger, MeasureReport, Missed, Note, Solution,
+    Through, Warning,
     energy::ledger::leak,
-    errors::open_ends::OpenEnd,
+    errors::{open_ends::OpenEnd, solved::Task},
     impact::{
         contacts,
         interval::{Contact, Impact, SLIGHT},
         sliders::Idle,
     },
     measures::{
-        Clip, Clip3ms, Hic, Hic15, Hic36, Measure as _, PeakAcceleration, PeakForce, PeakStrain,
-        Reading, SeverityIndex,
+        AverageDeceleration, Clip, Clip3ms, EndDeformation, EndForce, EndPosition, EndVelocity,
+        Energy, Family, Hic, Hic15, Hic36, Impulse, Measure as _, PeakAcceleration,
+        PeakDeformation, PeakForce, PeakStrain, Reading, SeverityIndex, selection::Selected,
     },
     report::compression::{ROUNDING, is_as_thick},
 };
 
 pub(crate) struct Findings<'a> {
     pub(crate) solution: &'a Solution<'a>,
-    pub(crate) accuracy: &'a Accuracy,
+    pub(crate) task: &'a Task<'a>,
     pub(crate) measures: &'a [MeasureReport],
     pub(crate) contacts: &'a [ContactReport],
     pub(crate) energy: &'a Ledger,
-    /// Whether errors are asked for.
-    pub(crate) estimate: bool,
     pub(crate) open_end: Option<&'a OpenEnd>,
     pub(crate) obstacle: Option<&'a SolveError>,
     pub(crate) guards: &'a [Guard],
@@ -42,6 +41,18 @@ pub(crate) struct Findings<'a> {
     pub(crate) idle: &'a [Idle],
 }
 
+/// Measures whose values over the whole run are looked at in every run, and those that mean one impact alone; of the others
+/// those on which there are limits.
+const PEAKS: [&str; 3] = [PeakForce::KIND, PeakAcceleration::KIND, PeakDeformation::KIND];
+const OF_ONE_IMPACT: [&str; 7] = [
+    Impulse::KIND,
+    Energy::KIND,
+    EndForce::KIND,
+    EndDeformation::KIND,
+    EndVelocity::KIND,
+    EndPosition::KIND,
+    AverageDeceleration::KIND,
+];
 /// Part by which a peak outside the impact must exceed that within to be worth a warning.
 const HARDER: f64 = 0.05;
 /// Measures of what an impact does to a body.
@@ -150,7 +161,7 @@ fn energy(findings: &Findings<'_>) -> Option<Warning> {
     let closure = findings.energy.closure();
     let bound = match findings.energy.error {
         Some(error) if findings.energy.turned_over > 0.0 => error / findings.energy.turned_over,
-        _ => worst(findings.measures).unwrap_or(findings.accuracy.default),
+        _ => worst(findings.measures).unwrap_or(findings.task.settings.accuracy.default),
     };
     (closure.abs() > bound.max(ROUNDING))
         .then(|| Warning::EnergyNotClosed { closure, leak: leak(findings.solution) })
@@ -215,7 +226,8 @@ fn still_in_contact(findings: &Findings<'_>) -> Vec<Warning> {
 /// A contact whose release has not been seen.
 fn contacts_that_pull(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
-    let tension = solution.tension().filter(|own| own.part > findings.accuracy.strictest())?;
+    let tension =
+        solution.tension().filter(|own| own.part > findings.task.settings.accuracy.strictest())?;
     let element = solution.assembly().connections[tension.connection].name.clone();
     Some(Warning::ReleaseMissed { element, pull: [tension.pull, tension.part], time: tension.time })
 }
@@ -224,54 +236,65 @@ fn contacts_that_pull(findings: &Findings<'_>) -> Option<Warning> {
 fn open_end(findings: &Findings<'_>) -> Option<Warning> {
     let OpenEnd { time, measures, .. } = findings.open_end?;
     let measures = measures.iter().map(|&at| findings.measures[at].key.clone()).collect();
-    Some(Warning::OpenEnd { time: *time, measures, is_covered: findings.estimate })
+    Some(Warning::OpenEnd { time: *time, measures, is_covered: findings.task.settings.estimate })
 }
 
 /// Peaks of forces and accelerations that lie outside the impact, and above those within.
 fn harder_outside(findings: &Findings<'_>) -> Option<Warning> {
     let solution = findings.solution;
-    let has_ended = |measure_report: &&MeasureReport| {
+    let has_ended = |measure_report: &MeasureReport| {
         let is_of_impact = measure_report.window_wish == Some(WindowWish::Impact);
         is_of_impact
             && measure_report.window.is_some_and(|(from, to)| from > 0.0 || to < solution.end())
     };
-    let of_impact = findings.measures.iter().filter(has_ended);
-    let harder: Vec<Harder> = of_impact
-        .filter_map(|measure| {
+    let is_limited = |own: &MeasureReport| {
+        findings.task.settings.limits.iter().any(|limit| limit.key == own.key)
+    };
+    let is_looked_at = |own: &MeasureReport| {
+        PEAKS.contains(&own.kind) || is_limited(own) && !OF_ONE_IMPACT.contains(&own.kind)
+    };
+    let read = findings.task.selected.iter().zip(findings.measures);
+    let harder: Vec<Harder> = read
+        .filter(|(_, measure)| has_ended(measure) && is_looked_at(measure))
+        .filter_map(|(entry, measure)| {
             let most = measure.value?;
-            let peak = peak_of_run(solution, measure)?;
-            let (value, time) = (peak.value.unwrap_or(f64::INFINITY), peak.time?);
-            let margin = measure.error.unwrap_or(0.0).max(HARDER * most);
+            let largest = largest_of_run(solution, entry)?;
+            let value = largest.value.unwrap_or(f64::INFINITY);
+            let margin = measure.error.unwrap_or(0.0).max(HARDER * most.abs());
             // What is but rounding in the impact has no peak there to be exceeded.
-            let is_harder = value > most + margin && value > peak.noise;
+            let is_harder = value > most + margin && value > largest.noise;
             is_harder.then(|| Harder {
                 measure: measure.key.clone(),
-                unit: measure.unit,
+                // The seconds of an index are not told.
+                unit: if measure.unit == "s" { "1" } else { measure.unit },
                 within: most,
                 outside: value,
-                time,
+                time: largest.time.unwrap_or_else(|| when_hardest(solution, entry)),
             })
         })
         .collect();
     (!harder.is_empty()).then_some(Warning::HarderOutside(harder))
 }
 
-/// The peak over the whole run of what a measure tells that of the impact of; `None` for other measures.
-fn peak_of_run(solution: &Solution<'_>, measure: &MeasureReport) -> Option<Reading> {
-    let (assembly, window) = (solution.assembly(), WindowWish::Run);
-    match measure.kind {
-        PeakForce::KIND => {
-            let at = assembly.position(&measure.target)?;
-            solution.keeps(assembly.connections[at].force?).then_some(())?;
-            Some(PeakForce { window }.read(solution, at))
-        }
-        PeakAcceleration::KIND => {
-            let at = assembly.nodes.iter().position(|node| node.name == measure.target)?;
-            solution.keeps(assembly.nodes[at].acceleration?).then_some(())?;
-            Some(PeakAcceleration { window }.read(solution, at))
-        }
-        _ => None,
-    }
+/// What a measure of the impact is over the whole run.
+fn largest_of_run(solution: &Solution<'_>, entry: &Selected) -> Option<Reading> {
+    let over_run = |own: Value| match own {
+        Value::Window(_) => Value::Window(WindowWish::Run),
+        own => own,
+    };
+    let values: Vec<Value> = entry.measure.values().into_iter().map(over_run).collect();
+    let of_run = entry.measure.with_values(&values).ok()?;
+    Some(of_run.read(solution, entry.target))
+}
+
+/// When the force of an element, or the acceleration of a node, is largest in the run \[s\].
+fn when_hardest(solution: &Solution<'_>, entry: &Selected) -> f64 {
+    let window = WindowWish::Run;
+    let peak = match entry.measure.applies_to() {
+        Family::Element => PeakForce { window }.read(solution, entry.target),
+        Family::Node => PeakAcceleration { window }.read(solution, entry.target),
+    };
+    peak.time.unwrap_or(0.0)
 }
 
 /// What is shaken or pushed off without a weight that brings it back.
@@ -299,7 +322,7 @@ fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
     warnings.extend(keys(|own| own.is_undetermined).map(Warning::Undetermined));
     let missed = findings.measures.iter().filter_map(|measure| {
         let reached = measure.relative_error().filter(|error| error.is_finite())?;
-        let wish = findings.accuracy.of(&measure.key);
+        let wish = findings.task.settings.accuracy.of(&measure.key);
         (measure.excess > 1.0).then(|| Missed {
             measure: measure.key.clone(),
             accuracy: [reached, wish],
@@ -316,7 +339,7 @@ fn accuracy(findings: &Findings<'_>) -> Vec<Warning> {
 /// That nothing is known of any error.
 fn unknown_errors(findings: &Findings<'_>) -> Option<Warning> {
     let mut valued = findings.measures.iter().filter(|measure| measure.value.is_some()).peekable();
-    valued.peek().filter(|_| findings.estimate)?;
+    valued.peek().filter(|_| findings.task.settings.estimate)?;
     let is_none = valued.all(|own| own.error.is_none());
     is_none.then(|| Warning::ErrorsUnknown { obstacle: findings.obstacle.cloned() })
 }

@@ -12,7 +12,7 @@ use super::{
     Band, NetworkFault, NetworkFit, NetworkSettings, Number, Other, Phase, Test,
     certainty::certainty,
     residuals::Task,
-    told::{FEWEST, deviation, is_structured},
+    told::{FEWEST, deviation, deviation_at_rest, is_structured},
 };
 use crate::optimum::{Optimum, Residuals as _, least_squares, sum};
 
@@ -281,7 +281,7 @@ impl Task<'_> {
         self.parts().zip(self.tests()).enumerate().any(|(at, (rows, own))| {
             let left = &left[rows];
             let resting = self.rows_at_rest(at, unknowns);
-            let at_rest = (resting >= FEWEST).then(|| deviation(&left[..resting]));
+            let at_rest = (resting >= FEWEST).then(|| deviation_at_rest(&left[..resting]));
             is_structured(left, own.noise.map(|own| own / self.unit(at)), at_rest)
         })
     }

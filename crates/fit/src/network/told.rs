@@ -13,9 +13,10 @@ pub(super) const FEWEST: usize = 8;
 const SMEARED: f64 = 2.0;
 
 /// Rows before the impact contradict a zero that is off by more than this part of the peak, and by so many standard
-/// errors of their mean: filtered rows follow each other, so that fewer than all tell it.
-const ZERO_OFF: f64 = 0.01;
-const ERRORS: f64 = 15.0;
+/// errors of their mean, by the scatter of the means of so many blocks: filtered rows follow each other.
+const ZERO_OFF: f64 = 0.005;
+const ERRORS: f64 = 6.0;
+const BLOCKS: usize = 8;
 
 /// What is left of a record is more than noise beyond so many times that, where its rows tell it; else where the statistic
 /// of Durbin and Watson is below this, which is 2 of noise that is white.
@@ -43,11 +44,25 @@ fn durbin_watson(left: &[f64]) -> f64 {
 /// The standard deviation in medians of the magnitude of normal deviates.
 const OF_MEDIAN: f64 = 1.4826;
 
-/// The standard deviation of normal deviates, by the median of their magnitudes.
+/// The standard deviation of normal deviates about zero, by the median of their magnitudes.
 pub(super) fn deviation(left: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = left.iter().map(|own| own.abs()).collect();
+    OF_MEDIAN * median(&left.iter().map(|own| own.abs()).collect::<Vec<_>>())
+}
+
+/// The same about their median.
+pub(super) fn deviation_at_rest(rows: &[f64]) -> f64 {
+    let middle = median(rows);
+    deviation(&rows.iter().map(|own| own - middle).collect::<Vec<_>>())
+}
+
+fn median(rows: &[f64]) -> f64 {
+    let mut sorted = rows.to_vec();
     sorted.sort_by(f64::total_cmp);
-    OF_MEDIAN * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn mean(rows: &[f64]) -> f64 {
+    rows.iter().sum::<f64>() / rows.len() as f64
 }
 
 /// Whether more is left in rows than noise of a standard deviation that is stated, or else was read, or than any that is
@@ -80,11 +95,12 @@ fn other_zero(test: &Test, left: &[f64], own: Own, until: f64) -> Option<OtherZe
     let first = test.rows.first()?.1;
     let peak = largest(test.rows.iter().map(|row| row.1 - first)).abs();
     let rows = test.rows.iter().zip(left).take_while(|row| row.0.0 < until);
-    let mut left: Vec<f64> = rows.map(|row| *row.1).collect();
-    left.sort_by(f64::total_cmp);
-    let (rows, median) = (left.len(), *left.get(left.len() / 2)?);
-    let square = left.iter().map(|own| (own - median) * (own - median)).sum::<f64>() / rows as f64;
-    let least = f64::max(ZERO_OFF * peak, ERRORS * (square / rows as f64).sqrt());
+    let left: Vec<f64> = rows.map(|row| *row.1).collect();
+    let (rows, median) = (left.len(), median(&left));
+    let blocks: Vec<f64> = left.chunks(rows.div_ceil(BLOCKS).max(1)).map(mean).collect();
+    let (count, middle) = (blocks.len() as f64, mean(&blocks));
+    let square = blocks.iter().map(|own| (own - middle).powi(2)).sum::<f64>();
+    let least = f64::max(ZERO_OFF * peak, ERRORS * (square / (count * (count - 1.0))).sqrt());
     let is_apart = test.is_offset && rows >= FEWEST && median.abs() > least;
     is_apart.then_some(OtherZero { rows, median: own.offset - median })
 }
@@ -166,7 +182,7 @@ impl Task<'_> {
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
             let resting = &left[..self.rows_at_rest(at, unknowns)];
             let rests = self.rests_until(at, own.shift);
-            let at_rest = (resting.len() >= FEWEST).then(|| unit * deviation(resting));
+            let at_rest = (resting.len() >= FEWEST).then(|| unit * deviation_at_rest(resting));
             let scatter = self.scatter(at, unknowns);
             let noise = unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt();
             let rms = (square / residual.len() as f64).sqrt();

@@ -378,6 +378,10 @@ fn solve_all(
     let measured = arguments.measured.read(&scene)?;
     let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
     for own in &asked {
+        // What is much for one method seldom is little for the next.
+        let long = failed.iter().filter(|own: &&(_, CliError)| own.1.lacks_work()).count()
+            + runs.iter().filter(|run| run.solver.work > own.budget / 2).count();
+        let own = &SolveSettings { budget: (own.budget >> long.min(9)).max(1), ..own.clone() };
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
         match solve_partial(&scene.network, &assembly, own, &mut bar) {
             // `auto` may choose what is asked for by name as well.

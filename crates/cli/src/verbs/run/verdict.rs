@@ -159,11 +159,15 @@ impl Words<'_> {
     fn energy(&self, taken_up: &TakenUp<'_>) -> String {
         let (value, name) = (taken_up.value, &taken_up.measure.target);
         let amount = self.shown(taken_up.measure, value);
-        let Some(supply) = &taken_up.supply else { return format!("{name} takes up {amount}") };
+        let alone = format!("{name} takes up {amount}");
+        let Some(supply) = &taken_up.supply else { return alone };
         let (kinetic, work) = (supply.kinetic, supply.work);
-        // What rests on springs at the start may be given to the pad as well.
-        let is_told = |part: f64| part <= 1.0 + LITTLE && part.abs() > ZERO;
         let is_zero = is_zero(taken_up.measure);
+        // What rests on springs at the start, or moves elsewhere, may be given to the pad as well.
+        if !is_zero && value > (1.0 + LITTLE) * (kinetic + work.max(0.0)) {
+            return alone;
+        }
+        let is_told = |part: f64| part.abs() > ZERO;
         let told = |part: f64| {
             if is_told(part) && !is_zero { format!(" ({})", share(part)) } else { String::new() }
         };
