@@ -23,7 +23,8 @@ use crate::{
     measures::{
         AverageDeceleration, Clip, Clip3ms, EndDeformation, EndForce, EndPosition, EndVelocity,
         Energy, Family, Hic, Hic15, Hic36, Impulse, Measure as _, PeakAcceleration,
-        PeakDeformation, PeakForce, PeakStrain, Reading, SeverityIndex, selection::Selected,
+        PeakDeformation, PeakDisplacement, PeakForce, PeakStrain, PeakVelocity, Reading,
+        SeverityIndex, selection::Selected,
     },
     report::compression::{ROUNDING, is_as_thick},
 };
@@ -44,7 +45,7 @@ pub(crate) struct Findings<'a> {
 /// Measures whose values over the whole run are looked at in every run, and those that mean one impact alone; of the others
 /// those on which there are limits.
 const PEAKS: [&str; 3] = [PeakForce::KIND, PeakAcceleration::KIND, PeakDeformation::KIND];
-const OF_ONE_IMPACT: [&str; 7] = [
+const OF_ONE_IMPACT: [&str; 9] = [
     Impulse::KIND,
     Energy::KIND,
     EndForce::KIND,
@@ -52,6 +53,9 @@ const OF_ONE_IMPACT: [&str; 7] = [
     EndVelocity::KIND,
     EndPosition::KIND,
     AverageDeceleration::KIND,
+    // What has bounced off goes farther than it was pressed in.
+    PeakDisplacement::KIND,
+    PeakVelocity::KIND,
 ];
 /// Part by which a peak outside the impact must exceed that within to be worth a warning.
 const HARDER: f64 = 0.05;
