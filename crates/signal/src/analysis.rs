@@ -162,9 +162,9 @@ impl Settings {
         // A velocity or displacement may stand anywhere before an impact.
         let has_zero = matches!(raw.dimension(), Dimension::ACCELERATION | Dimension::FORCE);
         let behind = (has_zero && offset.is_none() && removed.is_none())
-            .then(|| {
-                let behind = Offset::behind_pulse(raw).filter(Offset::is_there);
-                behind.or_else(|| Offset::at_both_ends(raw))
+            .then(|| match Offset::behind_pulse(raw) {
+                Some(own) => own.is_there().then_some(own),
+                None => Offset::at_both_ends(raw),
             })
             .flatten();
         let error = offset.filter(|_| has_zero || self.offset == Removal::Found);

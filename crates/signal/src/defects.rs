@@ -44,7 +44,7 @@ dashpot_units::words! {
         Offset { value: f64, error: f64, share: f64, unit: Dimension } = "offset",
         /// A record in which no rest before the pulse tells the zero, and that does not read zero behind it, or at both its ends.
         #[error(
-            "no rest before its pulse tells its zero, and where it ends {level} is read ({part} of the peak): it may be \
+            "no rest before its pulse tells its zero, and {level} is read where it ends ({part} of the peak): it may be \
              off by that, which the errors hold; record some ms before the impact, or say what to take off, \
              `--offset \"{level}\"`",
             level = shown(*.value, *.unit), part = percent(*.share, 2)

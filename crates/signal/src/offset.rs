@@ -101,7 +101,7 @@ impl Offset {
         Some(Self { window: (-to, -from), drift: -own.drift, ..own })
     }
 
-    /// What the first eight samples and the last ones both read, where they are level and no longer rest is there; the smaller
+    /// What the first eight samples and the last ones both read, where they are level; the larger
     /// of both.
     pub(crate) fn at_both_ends(channel: &Channel) -> Option<Self> {
         let (times, values) = (channel.times(), channel.values());
@@ -112,7 +112,7 @@ impl Offset {
         let ends = [own(0, FEWEST), own(last, values.len())];
         let is_level = |own: &Self| own.value.abs() > LEVEL * own.noise;
         let is_one = ends[0].value * ends[1].value > 0.0 && ends.iter().all(is_level);
-        ends.into_iter().min_by(|a, b| a.value.abs().total_cmp(&b.value.abs())).filter(|_| is_one)
+        ends.into_iter().max_by(|a, b| a.value.abs().total_cmp(&b.value.abs())).filter(|_| is_one)
     }
 
     /// The same within a window \[s\] in which something else tells that nothing has begun; `None` of fewer than eight

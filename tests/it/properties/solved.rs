@@ -92,7 +92,11 @@ pub(crate) fn apart(
 /// of them has a value, and nothing where one says that it is not known.
 fn sums_apart(one: &MeasureReport, other: &MeasureReport, factor: f64) -> f64 {
     let is_open = |measure_report: &MeasureReport| {
-        measure_report.is_undetermined || measure_report.error.is_some_and(f64::is_infinite)
+        // Of work that is left out within a jump no error is known.
+        let is_left_out = measure_report.unit == "J" && measure_report.error.is_none();
+        measure_report.is_undetermined
+            || is_left_out
+            || measure_report.error.is_some_and(f64::is_infinite)
     };
     if is_open(one) || is_open(other) {
         return 0.0;

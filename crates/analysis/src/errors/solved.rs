@@ -134,11 +134,14 @@ impl Task<'_> {
         };
         let threshold = threshold_at((!self.method.is_exact()).then_some(run.rtol));
         let mut solution = Solution::new(self.assembly, &trajectory).doubting(threshold);
-        let readings = self.read_under(&mut solution, observer)?;
+        let readings = self.read_under(&mut solution, observer);
+        let read = solution.panels();
+        run.budget.charge(read * READING);
+        let readings = readings?;
         let pulls = if threshold > 0.0 { solution.first_pulls() } else { Vec::new() };
         let balance =
             if is_judged { OnceCell::from(Balance::of(&solution)) } else { OnceCell::new() };
-        run.budget.charge(solution.panels() * READING);
+        run.budget.charge((solution.panels() - read) * READING);
         if self.method.is_exact() && run.budget.is_spent() {
             // Its signals are not followed any more.
             return Err(self.spent(&trajectory, run.budget.done()));

@@ -61,7 +61,7 @@ dashpot_units::words! {
         Beyond = "beyond-known",
         /// It stands on something that is pressed to where its law does not hold, neither from above nor from below.
         NoLaw = "no-law",
-        /// It keeps the limit in the impact, which a larger peak outside of it exceeds.
+        /// It keeps the limit in the impact, which it exceeds over the run.
         Outside = "harder-outside",
         /// It keeps the limit along the axes that were measured, and the limit is one on the resultant of all.
         OtherAxes = "other-axes",

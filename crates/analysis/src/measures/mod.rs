@@ -212,6 +212,11 @@ pub struct MeasureTraits {
 }
 
 impl MeasureTraits {
+    /// Whether it is the work that an element takes up.
+    pub(crate) fn is_work_of_element(&self) -> bool {
+        self.family == Family::Element && self.unit == "J"
+    }
+
     const fn of<M: MeasureKind>(unit: &'static str, family: Family, needs: Needs) -> Self {
         let (by_default, without_impactor, of_layers) = (false, false, false);
         let default = || Arc::new(M::default()) as Arc<dyn Measure>;

@@ -292,11 +292,6 @@ pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> 
 }
 
 impl CliError {
-    /// Whether the budget of work was not enough.
-    pub(crate) fn lacks_work(&self) -> bool {
-        matches!(self, Self::Run(RunError::Solve(SolveError::BudgetSpent { .. })))
-    }
-
     /// What is wrong with a setting of this name.
     pub(crate) fn unknown_kind<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Self {
         let near = nearest(word, known).map(str::to_owned);

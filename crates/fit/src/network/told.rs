@@ -23,8 +23,9 @@ const BLOCKS: usize = 8;
 const NOISY: f64 = 1.5;
 const FOLLOWING: f64 = 1.0;
 /// It is more than noise that is stated beyond so many times that, as it is rounded, and so many standard deviations of a
-/// mean square, each `√(2/rows)` of it.
+/// mean square, each `√(2/rows)` of it; beyond [`NOISY`] at the latest, and beyond the third where rows follow each other.
 const BEYOND_STATED: f64 = 1.1;
+const FOLLOWING_STATED: f64 = 1.25;
 const BEYOND_CHANCE: f64 = 4.0;
 /// Fewer rows tell no such statistic.
 const FEWEST_FOLLOWING: usize = 20;
@@ -73,8 +74,12 @@ pub(super) fn is_structured(left: &[f64], stated: Option<f64>, read: Option<f64>
         left.iter().map(|own| own * own).sum::<f64>() > rows * square * noise * noise
     };
     let by_chance = 1.0 + BEYOND_CHANCE * (2.0 / rows).sqrt();
-    match (stated, read) {
-        (Some(noise), _) => is_beyond(by_chance.max(BEYOND_STATED.powi(2)), noise),
+    // Rows that follow each other are no chance.
+    let most = if durbin_watson(left) < FOLLOWING { FOLLOWING_STATED } else { NOISY };
+    match (stated, read.filter(|own| *own > 0.0)) {
+        (Some(noise), _) => {
+            is_beyond(by_chance.max(BEYOND_STATED.powi(2)).min(most.powi(2)), noise)
+        }
         (None, Some(noise)) => is_beyond(NOISY.powi(2), noise),
         (None, None) => durbin_watson(left) < FOLLOWING,
     }

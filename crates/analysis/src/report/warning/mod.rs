@@ -280,6 +280,10 @@ impl Warning {
                 (is_exceeded || stands_for_others).then_some(Reason::Outside)
             }
             Self::BeyondLaw(Beyond { at_equator: true, .. }) => Some(Reason::NoLaw),
+            Self::Network(NetworkWarning::WithinJump { .. }) => limit
+                .measure()
+                .is_some_and(|own| own.about.is_work_of_element())
+                .then_some(Reason::Error),
             own => own.is_beyond_known().then_some(Reason::Beyond),
         }
     }

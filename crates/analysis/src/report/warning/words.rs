@@ -179,7 +179,7 @@ impl Warning {
                 let peaks: Vec<String> = own.iter().map(Harder::to_string).collect();
                 write!(
                     f,
-                    "there is a larger peak outside the impact: {}; measures with `window = \
+                    "over the run there is more than in the impact: {}; measures with `window = \
                      \"run\"` see it",
                     listed(&peaks)
                 )

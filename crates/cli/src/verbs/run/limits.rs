@@ -134,9 +134,7 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     if judged.sampled.is_some() {
         let designs = judged.chance.map_or(0, |own| own.outside);
         let designs = counted(designs, "design");
-        return Some(format!(
-            "in {designs} of the sample there is a larger peak outside the impact"
-        ));
+        return Some(format!("in {designs} of the sample there is more outside the impact"));
     }
     let harder = run.warnings.iter().find_map(|own| match own {
         Warning::HarderOutside(all) => all.iter().find(|own| own.measure == judged.limit.key),
@@ -155,9 +153,9 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         Some(element) => format!(
             "the {element} pulls before, and lets go with `separation.{element} = {{}}` under [effects]"
         ),
-        None => "`window = \"run\"` counts them, a window of two times need not".to_owned(),
+        None => "`window = \"run\"` counts that, a window of two times need not".to_owned(),
     };
-    Some(format!("it passes in the impact, but outside of it there are {level} at {time}: {way}"))
+    Some(format!("it passes in the impact, but over the run it is {level}, at {time}: {way}"))
 }
 
 /// The value with as many digits as tell it from the bound, and with its error where that reaches across.

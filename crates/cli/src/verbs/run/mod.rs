@@ -25,7 +25,10 @@ mod verdict;
 use std::{collections::HashMap, path::PathBuf, sync::Arc};
 
 use clap::Args;
-use dashpot_analysis::{Difference, RunReport, SolveSettings, Warning, differences, solve_partial};
+use dashpot_analysis::{
+    Difference, RunError, RunReport, SolveSettings, Warning, differences, solve_partial,
+};
+use dashpot_dae::SolveError;
 use dashpot_plot::{
     RunSeries,
     figures::{FORCE_TIME, Figure},
@@ -377,13 +380,18 @@ fn solve_all(
     let scattered = Scattered::of(&scene, set, &options)?;
     let measured = arguments.measured.read(&scene)?;
     let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
+    // What is much for one method is seldom little for the next.
+    let mut long = 0;
     for own in &asked {
-        // What is much for one method seldom is little for the next.
-        let long = failed.iter().filter(|own: &&(_, CliError)| own.1.lacks_work()).count()
-            + runs.iter().filter(|run| run.solver.work > own.budget / 2).count();
-        let own = &SolveSettings { budget: (own.budget >> long.min(9)).max(1), ..own.clone() };
+        let budget = (own.budget >> long.min(9)).max(1);
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
-        match solve_partial(&scene.network, &assembly, own, &mut bar) {
+        let granted = SolveSettings { budget, ..own.clone() };
+        let solved = solve_partial(&scene.network, &assembly, &granted, &mut bar);
+        long += u32::from(match &solved {
+            Ok(report) => report.solver.work > budget / 2,
+            Err(error) => matches!(error, RunError::Solve(SolveError::BudgetSpent { .. })),
+        });
+        match solved {
             // `auto` may choose what is asked for by name as well.
             Ok(mut report) if is_new(&runs, &report) => {
                 if let Some(scattered) = &scattered {
