@@ -23,8 +23,8 @@ use crate::{
     measures::{
         AverageDeceleration, Clip, Clip3ms, EndDeformation, EndForce, EndPosition, EndVelocity,
         Energy, Family, Hic, Hic15, Hic36, Impulse, Measure as _, PeakAcceleration,
-        PeakDeformation, PeakDisplacement, PeakForce, PeakStrain, PeakVelocity, Reading,
-        SeverityIndex, selection::Selected,
+        PeakDisplacement, PeakForce, PeakStrain, PeakVelocity, Reading, SeverityIndex,
+        selection::Selected,
     },
     report::compression::{ROUNDING, is_as_thick},
 };
@@ -44,7 +44,7 @@ pub(crate) struct Findings<'a> {
 
 /// Measures whose values over the whole run are looked at in every run, and those that mean one impact alone; of the others
 /// those on which there are limits.
-const PEAKS: [&str; 3] = [PeakForce::KIND, PeakAcceleration::KIND, PeakDeformation::KIND];
+const PEAKS: [&str; 2] = [PeakForce::KIND, PeakAcceleration::KIND];
 const OF_ONE_IMPACT: [&str; 9] = [
     Impulse::KIND,
     Energy::KIND,

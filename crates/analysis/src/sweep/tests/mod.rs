@@ -198,7 +198,7 @@ fn instantiated_points_are_warned_of_what_full_ones_are() {
     let harder = found
         .warnings
         .iter()
-        .find(|warning| warning.warning.to_string().contains("larger peak"))
+        .find(|warning| warning.warning.to_string().contains("more than in the impact"))
         .unwrap();
     assert_eq!(harder.points, [0, 1]);
     let pulls = found
