@@ -33,7 +33,7 @@ const METHODS: [&str; 7] = ["auto", "exact", "bdf", "tr-bdf2", "esdirk34", "tsit
 const PATIENCE: usize = 200_000;
 const SHORT_PATIENCE: usize = 40_000;
 /// So many of the kept runs may be longer.
-const MOST_TOO_LONG: usize = 20;
+const MOST_TOO_LONG: usize = 10;
 
 /// Scenes that the program does not solve rightly, by all methods or by one, and why.
 const KNOWN: [(&str, &str); 4] = [
@@ -92,8 +92,12 @@ fn campaign<'a>(path: &str, patience: usize, methods: impl Fn(usize) -> Vec<&'a 
 
 #[test]
 fn kept_scenes_are_as_an_independent_integrator_has_them() {
-    // What the program chooses, and one of the others in turn.
-    let methods = |at: usize| vec![METHODS[0], METHODS[1 + at % (METHODS.len() - 1)]];
+    // What the program chooses, and beside every other scene one of the others in turn.
+    let other = |at: usize| METHODS[1 + at / 2 % (METHODS.len() - 1)];
+    let methods = |at: usize| match at % 2 {
+        0 => vec![METHODS[0], other(at)],
+        _ => vec![METHODS[0]],
+    };
     let tally = campaign(KEPT, SHORT_PATIENCE, methods);
     println!("{tally}");
     assert!(tally.is_good() && tally.too_long.len() <= MOST_TOO_LONG, "{tally}");

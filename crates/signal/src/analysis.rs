@@ -94,6 +94,9 @@ pub struct Analysis {
     /// Of an acceleration or a force the reading at rest behind the pulse, where nothing is at rest before it and nothing
     /// was taken off, and that is not zero: its zero may be off by as much, which the errors hold.
     pub behind: Option<Offset>,
+    /// Of an acceleration or a force, how far below its reading at rest it has sagged at the end of the pulse, in SI units, where
+    /// it comes back as behind a high-pass; the errors hold it.
+    pub sag: Option<f64>,
     /// What was taken off, in SI units.
     pub removed: Option<f64>,
     /// What was done with it.
@@ -125,6 +128,8 @@ pub struct Treated {
     pub offset: Option<Offset>,
     /// The reading at rest behind the pulse, where the zero may be off by as much.
     pub(crate) behind: Option<Offset>,
+    /// How far it has sagged at the end of the pulse, where it sags as behind a high-pass.
+    pub(crate) sag: Option<f64>,
     /// What was taken off, in SI units.
     pub removed: Option<f64>,
     /// How far every sample may be off in the same direction: by the error of the offset that was taken off, or all of the
@@ -171,7 +176,8 @@ impl Settings {
         let error = error.map(|own| rest.abs() + own.error);
         let behind_error = behind.map_or(0.0, |own| own.value.abs() + own.error);
         let error = error.unwrap_or(behind_error);
-        let floor = error + 0.5 * raw.resolution() + self.error;
+        let sag = offset.filter(|_| has_zero).and_then(|own| own.sag(raw));
+        let floor = error + 0.5 * raw.resolution() + self.error + sag.map_or(0.0, f64::abs);
         let sign = if self.is_inverted { -1.0 } else { 1.0 };
         let (mut channel, mut at_rest) =
             (raw.map(|own| sign * (own - removed.unwrap_or(0.0))), None);
@@ -204,7 +210,7 @@ impl Settings {
             channel = channel.cut(window).map_err(SettingsFault::NothingLeft)?;
             at_rest = at_rest.and_then(|own| own.cut(window).ok());
         }
-        Ok(Treated { channel, offset, behind, removed, floor, rest: sign * rest, at_rest })
+        Ok(Treated { channel, offset, behind, sag, removed, floor, rest: sign * rest, at_rest })
     }
 
     /// Reads a channel.
@@ -233,7 +239,7 @@ impl Settings {
         noise: Noise,
         (part, clipped): (Part, Vec<(f64, f64)>),
     ) -> Analysis {
-        let Treated { channel, offset, behind, removed, floor, rest, at_rest } = treated;
+        let Treated { channel, offset, behind, sag, removed, floor, rest, at_rest } = treated;
         let uncertainty = Uncertainty { floor, rest, noise };
         let seen = (&part, &clipped[..]);
         let (mut readings, motion, contact) = self.readings(&channel, uncertainty, seen);
@@ -261,6 +267,7 @@ impl Settings {
             beside: Vec::new(),
             offset,
             behind,
+            sag,
             removed,
             settings: *self,
             contact,

@@ -56,6 +56,13 @@ dashpot_units::words! {
             shown(*.change, *.unit), percent(*.share, 2)
         )]
         Drift { change: f64, share: f64, unit: Dimension } = "drift",
+        /// A record that reads the other way at the end of its pulse, and comes back as behind a high-pass.
+        #[error(
+            "reads {} at the end of its pulse ({} of the peak) and comes back to zero as an AC-coupled sensor does, or a \
+             body that is braked: the errors hold that; record with a DC-coupled sensor",
+            shown(*.value, *.unit), percent(*.share, 2)
+        )]
+        Sag { value: f64, share: f64, unit: Dimension } = "sag",
         /// The end of the range of a sensor or amplifier; of a resultant that of one of its axes.
         #[error(
             "{}is clipped at {}: {samples} equal samples at its largest value, from {} on; what depends on them is \
@@ -193,6 +200,7 @@ pub(crate) fn defects(own: &Analysis) -> Vec<Defect> {
     all.extend(second(own, unit));
     all.extend(offset(own, peak, unit));
     all.extend(drift(own, peak, unit));
+    all.extend(sag(own, peak, unit));
     let step = own.raw.resolution();
     let share = step / own.raw.largest().1;
     if share > RESOLUTION_SHARE {
@@ -337,6 +345,12 @@ fn drift(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
     let is_one = change.abs() > REST_SHARE * peak && change.abs() > 5.0 * rest.noise
         || rest.is_drifting && change.abs() > OFFSET_SHARE * peak;
     is_one.then_some(Defect::Drift { change, share: change.abs() / peak, unit })
+}
+
+fn sag(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
+    let value = own.sag?;
+    let share = value.abs() / peak;
+    (share > OFFSET_SHARE).then_some(Defect::Sag { value, share, unit })
 }
 
 fn of_pulse(own: &Analysis, peak: f64, unit: Dimension) -> Vec<Defect> {

@@ -13,6 +13,8 @@ const RESTLESS: f64 = 0.03;
 const AROUND: usize = 4;
 /// Ends that read more than so many times their scatter do not rise or fall from zero, which makes that 1.7.
 const LEVEL: f64 = 3.0;
+/// What follows a pulse makes up for it where their integrals are as large as each other within this part.
+const MADE_UP: f64 = 0.2;
 /// Fewer samples before the pulse tell no offset.
 const FEWEST: usize = 8;
 /// What is further out than this part of the peak, so many samples in a row, is an impact of its own, and before the pulse
@@ -99,6 +101,31 @@ impl Offset {
         let own = Self::before_pulse(&channel.reversed())?;
         let (from, to) = own.window;
         Some(Self { window: (-to, -from), drift: -own.drift, ..own })
+    }
+
+    /// How far below this a sensor without a response to constants (a high-pass) reads at the end of the pulse: it comes
+    /// back from there by the same part in equal times, until what it takes back makes up for the pulse. `None` where the
+    /// record does not end so.
+    pub(crate) fn sag(&self, channel: &Channel) -> Option<f64> {
+        let (behind, times) = (Self::behind_pulse(channel)?, channel.times());
+        let at = |time: f64| times.partition_point(|own| *own < time);
+        let (begun, ended) = (at(self.window.1), at(behind.window.0));
+        let values: Vec<f64> = channel.values().iter().map(|own| own - self.value).collect();
+        let third = (values.len() - ended) / 3;
+        let [one, two, three] = [0, 1, 2].map(|own| mean(&values[ended + own * third..][..third]));
+        let (lost, more) = (one / two, two / three);
+        let length = times[ended + third - 1] - times[ended];
+        let scatter =
+            5.0 * self.noise.max(0.5 * channel.resolution()) * (2.0 / third as f64).sqrt();
+        let reads = one * lost.sqrt();
+        let back = reads * length / lost.ln();
+        let steps = times.get(begun..=ended)?.windows(2).zip(values[begun..=ended].windows(2));
+        let pulse: f64 = steps.map(|(t, own)| 0.5 * (t[1] - t[0]) * (own[0] + own[1])).sum();
+        let is_one = lost > 1.0
+            && more > 1.0
+            && (one - two).abs() > scatter
+            && (back / pulse + 1.0).abs() < MADE_UP;
+        is_one.then_some(reads)
     }
 
     /// What the first eight samples and the last ones both read, where they are level; the larger

@@ -161,9 +161,8 @@ impl Analysis {
         let longer = axes.len() as f64 * noise.deviation.powi(2) / channel.largest().1;
         let floor = floor + if longer.is_finite() { longer } else { 0.0 };
         let raw = channel.clone();
-        let (offset, behind) = (None, None);
-        let treated =
-            Treated { channel, offset, behind, removed: None, floor, rest: 0.0, at_rest: None };
+        let (offset, behind, sag, removed, at_rest) = (None, None, None, None, None);
+        let treated = Treated { channel, offset, behind, sag, removed, floor, rest: 0.0, at_rest };
         let clipped = axes.iter().flat_map(|own| own.clipped.iter().copied()).collect();
         let mut own = settings.read(raw, treated, noise, (part, clipped));
         own.defects = defects(&own);

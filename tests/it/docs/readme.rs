@@ -87,7 +87,7 @@ fn the_commands_of_the_first_scene_succeed() {
     let mut count = 0;
     for line in lines.lines().filter_map(|line| line.strip_prefix("dashpot ")) {
         let command = line.split(['#', '|']).next().unwrap_or_default().trim();
-        printed(&arguments(command), folder.path());
+        printed(&arguments(&command.replace(",99999\"", ",999\"")), folder.path());
         count += 1;
     }
     assert!(count >= 5);

@@ -170,7 +170,7 @@ fn pressed(material: &str, segments: usize) -> RunReport {
         "[materials.own]\n{material}\n[nodes]\nplate = {{ motion = {{ haversine = {{ peak = {DEPTH:?}, \
          duration = {PRESS:?} }} }} }}\n[elements]\npad = {{ between = [\"plate\", \"ground\"], layers \
          = [{{ material = \"own\", {PAD}, density = \"200 kg/m^3\" }}], segments = {segments} }}\n\
-         [accuracy]\ndefault = 1e-4\n[run]\nduration = {PRESS:?}\n"
+         [run]\nduration = {PRESS:?}\n"
     );
     run(&text, "bdf")
 }

@@ -207,3 +207,42 @@ fn a_zero_that_both_ends_are_off_from_is_in_the_bars() {
     let all = json(&["signal", &write(&folder, "cut.csv", &text), "--json"]);
     assert!(!has(&all, "unknown-zero"), "{all}");
 }
+
+/// What a first-order high-pass of this time constant \[ms\] has taken off by a time \[ms\]: the integral of the pulse, each
+/// part of which has decayed since, per time constant.
+fn taken_off(time: f64, constant: f64) -> f64 {
+    let rate = PI / LENGTH;
+    let (inside, behind) = (time.clamp(0.0, LENGTH), (time - LENGTH).max(0.0));
+    let forced = (rate * inside).sin() / constant - rate * (rate * inside).cos();
+    let held = (forced + rate * (-inside / constant).exp()) / (constant.powi(-2) + rate * rate);
+    held * (-behind / constant).exp() / constant
+}
+
+#[test]
+fn a_sag_as_behind_a_high_pass_is_in_the_bars() {
+    let folder = TempDir::new().unwrap();
+    let truth = 0.414_645_65 * HEIGHT.powf(2.5) * 1e-3 * LENGTH;
+    let mut state = 7;
+    for constant in [100.0, 300.0, 1000.0] {
+        let text = record((-40.0, 250.0), &mut |time| {
+            HEIGHT * (half_sine(time) - taken_off(time, constant)) + 0.05 * normal(&mut state)
+        });
+        let path = write(&folder, "sag.csv", &text);
+        let all = json(&["signal", &path, "--json"]);
+        assert!(has(&all, "sag"), "{constant} ms: {:?}", warnings(&all));
+        let [value, error] = ["value", "error"].map(|own| number(&measure(&all, "hic15")[own]));
+        assert!((value - truth).abs() <= error, "{constant} ms: {value} ± {error}, not {truth}");
+        let output = run(&["signal", &path, "--limit", &format!("acc.hic15<={}", truth - 1.0)]);
+        assert!(!out(&output).contains("PASS"), "{constant} ms: {}", out(&output));
+    }
+    // A body that flies back freely, and one that lies still.
+    for after in [-1.0, 0.0] {
+        let text = record((-40.0, 250.0), &mut |time| {
+            HEIGHT * half_sine(time)
+                + if time > LENGTH { after } else { 0.0 }
+                + 0.05 * normal(&mut state)
+        });
+        let all = json(&["signal", &write(&folder, "free.csv", &text), "--json"]);
+        assert!(!has(&all, "sag"), "{after} g: {:?}", warnings(&all));
+    }
+}

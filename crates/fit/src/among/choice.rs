@@ -53,6 +53,8 @@ pub enum Verdict {
     Chosen,
     /// It is near enough, with no fewer numbers.
     NotNeeded,
+    /// It leaves more than one of fewer numbers, which is a limit of it: its search ended elsewhere than at its minimum.
+    NotConverged,
     /// Another is nearer.
     TooFar,
     /// It could not be fitted.
@@ -73,7 +75,8 @@ pub struct Choice {
 }
 
 /// Chooses by held-out tests where there are some, else by an error that may be left; of candidates that are as near,
-/// that with the fewest numbers. Those without a fit are `None`.
+/// that with the fewest numbers. Those without a fit are `None`. Each has those of fewer numbers as limits, as forms have
+/// ([`KNOWN`](super::KNOWN)).
 ///
 /// # Examples
 ///
@@ -109,9 +112,14 @@ pub fn choose(candidates: &[Option<Candidate>], stated: f64) -> Choice {
         few.cmp(&many).then(left.total_cmp(&right))
     });
     let chosen = first.map(|own| own.0);
+    let is_beaten = |own: &Candidate| {
+        let mut fewer = candidates.iter().flatten().filter(|less| less.numbers < own.numbers);
+        fewer.any(|less| own.error > less.error * (1.0 + AS_NEAR))
+    };
     let verdict = |(at, own): (usize, &Option<Candidate>)| match own {
         None => Verdict::NotFitted,
         Some(_) if Some(at) == chosen => Verdict::Chosen,
+        Some(own) if is_beaten(own) => Verdict::NotConverged,
         Some(own) if is_allowed(own) => Verdict::NotNeeded,
         Some(_) => Verdict::TooFar,
     };
@@ -170,5 +178,9 @@ mod tests {
         let choice = choose(&all, 1e-4);
         assert_eq!((choice.chosen, choice.is_near), (Some(2), false));
         assert_eq!(choose(&[None], 0.01).chosen, None);
+        // One that leaves more than its limit has not converged.
+        let choice = choose(&[own(2, 0.039), own(3, 0.045), own(5, 0.041)].map(Some), 0.01);
+        let right = [Verdict::Chosen, Verdict::NotConverged, Verdict::NotNeeded];
+        assert_eq!(choice.verdicts, right);
     }
 }

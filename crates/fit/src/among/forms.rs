@@ -4,7 +4,8 @@ use dashpot_network::{Model, dashpot, spring};
 
 use crate::network::Number;
 
-/// Words of all forms, and what they are. **A new form is registered here**, and in `Form::named`.
+/// Words of all forms, and what they are. Each has those with fewer constants as limits, where a constant is none or very
+/// large. **A new form is registered here**, and in `Form::named`.
 pub const KNOWN: &[(&str, &str)] = &[
     ("spring", "a spring"),
     ("kelvin-voigt", "a spring and a dashpot in parallel"),

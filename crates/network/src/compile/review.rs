@@ -159,7 +159,8 @@ fn is_rigid(parts: &Parts<'_>, connection: usize) -> bool {
     leaves.map(|at| parts.expansion.primitives[at].law).all(|law| law == Law::Rigid)
 }
 
-/// Number of connections between each body and the nearest impactor, not passing through fixed nodes.
+/// Number of connections between each body and the nearest impactor, not passing through fixed nodes, which are beyond
+/// all others: each way ends there.
 fn distances(network: &Network, parts: &Parts<'_>) -> Vec<Option<usize>> {
     let count = parts.bodies.all.len();
     let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); count];
@@ -176,6 +177,7 @@ fn distances(network: &Network, parts: &Parts<'_>) -> Vec<Option<usize>> {
     }
     while let Some((body, steps)) = queue.pop_front() {
         if parts.bodies.all[body].role == super::bodies::Role::Fixed {
+            distance[body] = Some(count);
             continue;
         }
         for &next in &neighbours[body] {

@@ -175,6 +175,7 @@ impl Among {
         match self.choice.verdicts[at] {
             Verdict::Chosen => "chosen",
             Verdict::NotNeeded => "no fewer numbers, and no nearer",
+            Verdict::NotConverged => "not converged: a form that it contains is nearer",
             Verdict::TooFar => "too far",
             Verdict::NotFitted => "not fitted",
         }

@@ -212,6 +212,17 @@ fn a_reversed_element_is_warned_of() {
     network.connect("padding", network.ground(), head, burgers());
     let assembly = network.compile(0.02).unwrap();
     assert!(assembly.warnings[0].to_string().contains("looks reversed"));
+    // Another way from the head to the ground makes that no nearer than what lies before it.
+    let mut network = Network::new();
+    let head = network.add_node(Node::mass("head", 10.0).moving(10.0));
+    let [shell, base] = ["shell", "base"].map(|name| network.add_node(Node::mass(name, 1.0)));
+    let ground = network.ground();
+    for (number, [from, to]) in
+        [[head, ground], [head, shell], [shell, base], [base, ground]].into_iter().enumerate()
+    {
+        network.connect(format!("e{number}"), from, to, spring(1.0));
+    }
+    assert!(network.compile(0.02).unwrap().warnings.is_empty());
 }
 
 #[test]
