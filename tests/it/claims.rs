@@ -503,3 +503,34 @@ duration = "40 ms"
     let right = (peak(1.01) - peak(0.99)) / (0.02 * 8e4);
     assert!((slope - right).abs() <= error + 1e-3 * right.abs(), "{slope} ± {error}, {right}");
 }
+
+#[test]
+fn points_that_are_no_scenes_are_left_out_of_a_sweep_and_told() {
+    let (_folder, path) = written(TWO_THICKNESSES);
+    let measure = ["--measure", "head.peak-acceleration"];
+    let of = |vary: &'static str| [&["sweep", &path, "--vary", vary][..], &measure].concat();
+    let (status, own) = object(&of("T=30,35,40 mm"));
+    let values = own["measures"][0]["values"].as_array().unwrap();
+    assert!(status == 0 && values[0].is_number() && values[1].is_null(), "{own}");
+    assert_eq!(own["unevaluated"]["count"], 2, "{own}");
+    assert!(err(&run(&of("T=30,35,40 mm"))).contains("no valid scene, the first at T = 35 mm"));
+    // Where no end of a range is one, its fault is shown.
+    let none = run(&of("T=35,40 mm"));
+    assert!(code(&none) == 2 && err(&none).contains("`thickness` is 30 mm here, but 35 mm"));
+}
+
+#[test]
+fn a_robust_optimum_is_not_claimed_of_a_scatter_that_the_scene_cuts_off() {
+    let scene = TWO_THICKNESSES
+        .replace("T = \"30 mm\"", "C = \"20 N s/m\"")
+        .replace("dashpot = \"20 N s/m\"", "dashpot = \"C\"")
+        .replace("thickness = \"T\"", "thickness = \"30 ± 1 mm\"");
+    let (_folder, path) = written(&scene);
+    let design = ["design", &path, "--vary", "C=10..40 N s/m", "--sample", "4"];
+    let robust = ["--least", "head.peak-acceleration", "--robust", "95%", "--scatter", "100"];
+    let (_, own) = object(&[&design[..], &robust].concat());
+    assert_eq!((&own["robust"]["enough"], &own["claimed"]), (&true.into(), &false.into()), "{own}");
+    let shown = said_out(&[&design[..], &robust].concat());
+    assert_eq!(labels_of(&shown)[..2], ["UNDECIDED"; 2], "{shown}");
+    assert!(shown.contains("only 0 % of what scatters is within"), "{shown}");
+}

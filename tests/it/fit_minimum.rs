@@ -214,3 +214,18 @@ fn a_zero_that_makes_up_for_a_wrong_model_is_no_noise() {
         assert_eq!(fit["parameters"][name]["identified"].as_bool(), Some(false), "{fit}");
     }
 }
+
+#[test]
+fn rows_that_read_nothing_contradict_a_zero_of_a_model_that_begins_before_them() {
+    let mut rows = "t [s],acc [m/s^2]\n".to_owned();
+    for at in 0..240 {
+        let time = f64::from(at - 40) / RATE;
+        let push = -100.0 - 100.0 * (std::f64::consts::PI * time / 20e-3).sin();
+        writeln!(rows, "{time:.6},{:.4}", if time < 0.0 { 0.0 } else { push }).unwrap();
+    }
+    let fit = fitted(&rows);
+    let test = &fit["tests"][0];
+    assert!(test["shift"].as_f64().unwrap() < -2e-3, "{test}");
+    assert_eq!(test["other_zero"]["rows"], 40, "{test}");
+    assert_eq!(test["other_zero"]["median"].as_f64(), Some(0.0), "{test}");
+}

@@ -324,3 +324,24 @@ fn a_part_that_was_left_is_removed() {
     assert_eq!(code(&run(&["man", "--out", text(room.path())])), 0);
     assert!(!left.exists() && new.exists() && foreign.exists());
 }
+
+#[test]
+fn a_range_without_a_unit_is_told_and_strictly_refused() {
+    let room = TempDir::new().unwrap();
+    let scene = file(&room, "pad.toml", PAD);
+    let sweep = ["sweep", text(&scene), "--vary", "head.mass=1..2,2"];
+    let shown = run(&sweep);
+    assert_eq!(
+        (code(&shown), said(&shown).matches("has no unit").count()),
+        (0, 1),
+        "{}",
+        err(&shown)
+    );
+    for verb in
+        [&sweep[..], &["design", text(&scene), "--vary", "head.mass=1..2", "--least", "head.mass"]]
+    {
+        let strict = run(&[verb, &["--strict"]].concat());
+        assert_eq!((code(&strict), out(&strict).as_str()), (2, ""), "{}", err(&strict));
+        assert!(said(&strict).contains("has no unit: a bare number is in kg"), "{}", err(&strict));
+    }
+}

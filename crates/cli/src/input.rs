@@ -93,12 +93,16 @@ impl Input {
 
     /// How it is read with the values `set` in place of its own.
     pub(crate) fn options<'o>(&'o self, set: &'o [(String, String)]) -> ReadOptions<'o> {
-        let bare = match IS_STRICT.load(Ordering::Relaxed) {
-            _ if host::is_called() => BareNumbers::Silent,
-            true => BareNumbers::Refused,
-            false => BareNumbers::Warned,
-        };
-        ReadOptions { bare, ..options(Some(&self.file), set) }
+        ReadOptions { bare: bare_numbers(), ..options(Some(&self.file), set) }
+    }
+}
+
+/// What becomes of numbers without a unit.
+pub(crate) fn bare_numbers() -> BareNumbers {
+    match IS_STRICT.load(Ordering::Relaxed) {
+        _ if host::is_called() => BareNumbers::Silent,
+        true => BareNumbers::Refused,
+        false => BareNumbers::Warned,
     }
 }
 

@@ -38,10 +38,12 @@ dashpot_units::words! {
         Flat { value: f64, unit: Dimension } = "flat",
         /// A reading at rest that is not taken off.
         #[error(
-            "reads {} ± {} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
-            shown(*.value, *.unit), shown(*.error, *.unit), percent(*.share, 2)
+            "reads {}{} at rest before the pulse ({} of the peak), which is not taken off: `--offset auto`",
+            shown(*.value, *.unit),
+            .error.map_or(String::new(), |error| format!(" ± {}", shown(error, *.unit))),
+            percent(*.share, 2)
         )]
-        Offset { value: f64, error: f64, share: f64, unit: Dimension } = "offset",
+        Offset { value: f64, error: Option<f64>, share: f64, unit: Dimension } = "offset",
         /// A record in which no rest before the pulse tells the zero, and that does not read zero behind it, or at both its ends.
         #[error(
             "no rest before its pulse tells its zero, and {level} is read where it ends ({part} of the peak): it may be \
@@ -325,7 +327,7 @@ fn offset(own: &Analysis, peak: f64, unit: Dimension) -> Option<Defect> {
     let share = rest.value.abs() / peak;
     (rest.is_there() && share > OFFSET_SHARE).then_some(Defect::Offset {
         value: rest.value,
-        error: rest.error,
+        error: rest.uncertainty(),
         share,
         unit,
     })

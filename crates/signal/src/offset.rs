@@ -22,6 +22,8 @@ const FEWEST: usize = 8;
 pub(crate) const IMPACT: f64 = 0.1;
 pub(crate) const IN_A_ROW: usize = 3;
 const IMPACTS: usize = 8;
+/// What is below this part of a reading is rounding.
+const ROUNDING: f64 = 1e-12;
 /// Parts into which the record before the pulse is divided.
 const BLOCKS: usize = 8;
 
@@ -175,6 +177,11 @@ impl Offset {
             drift: 2.0 * change / length,
             is_drifting: change.abs() > (5.0 * noise / (count as f64).sqrt()).max(coarse * 2.0),
         }
+    }
+
+    /// Its error, but where that is rounding.
+    pub fn uncertainty(&self) -> Option<f64> {
+        Some(self.error).filter(|error| *error > ROUNDING * self.value.abs())
     }
 
     /// Whether it is more than its error.

@@ -170,7 +170,7 @@ fn pressed(material: &str, segments: usize) -> RunReport {
         "[materials.own]\n{material}\n[nodes]\nplate = {{ motion = {{ haversine = {{ peak = {DEPTH:?}, \
          duration = {PRESS:?} }} }} }}\n[elements]\npad = {{ between = [\"plate\", \"ground\"], layers \
          = [{{ material = \"own\", {PAD}, density = \"200 kg/m^3\" }}], segments = {segments} }}\n\
-         [run]\nduration = {PRESS:?}\n"
+         [accuracy]\ndefault = 1e-4\n[run]\nduration = {PRESS:?}\n"
     );
     run(&text, "bdf")
 }
@@ -198,7 +198,7 @@ fn a_layer_that_is_pressed_in_slowly_has_its_law_however_many_segments_it_has() 
         if material.starts_with("power") {
             continue;
         }
-        for segments in [1, 5] {
+        for segments in [1, 3] {
             let report = pressed(material, segments);
             for face in ["pad.force", "pad.transmitted-force"] {
                 let force = signal(&report, face);

@@ -235,6 +235,9 @@ pub fn fit_watched(
         }
     }
     fit.is_stopped = watched.is_stopped();
+    if fit.is_stopped {
+        fit.numbers.iter_mut().for_each(|own| own.ends = [None; 2]);
+    }
     Ok(fit)
 }
 

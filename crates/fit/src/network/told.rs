@@ -95,12 +95,16 @@ fn leaves(test: &Test) -> Option<f64> {
     Some(test.rows.iter().find(|row| (row.1 - first).abs() > QUIET * peak)?.0)
 }
 
-/// What the rows before a time read at zero where a fitted zero contradicts them; `left` is the model less the rows.
-fn other_zero(test: &Test, left: &[f64], own: Own, until: f64) -> Option<OtherZero> {
+/// What the rows before the impact read at zero where a fitted zero contradicts them: until that of the model begins, of which
+/// `left` is the model less the rows, or where it leaves too few of them, that of the record.
+fn other_zero(test: &Test, left: &[f64], own: Own, [model, record]: [f64; 2]) -> Option<OtherZero> {
     let first = test.rows.first()?.1;
     let peak = largest(test.rows.iter().map(|row| row.1 - first)).abs();
-    let rows = test.rows.iter().zip(left).take_while(|row| row.0.0 < until);
-    let left: Vec<f64> = rows.map(|row| *row.1).collect();
+    let before = |until: f64| test.rows.iter().take_while(move |row| row.0 < until);
+    let mut left: Vec<f64> = before(model).zip(left).map(|row| *row.1).collect();
+    if left.len() < FEWEST {
+        left = before(record).map(|row| own.offset - row.1).collect();
+    }
     let (rows, median) = (left.len(), median(&left));
     let blocks: Vec<f64> = left.chunks(rows.div_ceil(BLOCKS).max(1)).map(mean).collect();
     let (count, middle) = (blocks.len() as f64, mean(&blocks));
@@ -186,7 +190,7 @@ impl Task<'_> {
             let mean_square =
                 |rows: &[f64]| rows.iter().map(|own| own * own).sum::<f64>() / rows.len() as f64;
             let resting = &left[..self.rows_at_rest(at, unknowns)];
-            let rests = self.rests_until(at, own.shift);
+            let rests = [own.shift, f64::INFINITY].map(|begins| self.rests_until(at, begins));
             let at_rest = (resting.len() >= FEWEST).then(|| unit * deviation_at_rest(resting));
             let scatter = self.scatter(at, unknowns);
             let noise = unit * (mean_square(left) / (1.0 - taken).max(0.1)).sqrt();

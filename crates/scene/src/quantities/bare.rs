@@ -32,12 +32,13 @@ pub struct BareNumber {
 }
 
 impl BareNumber {
-    /// That of `given`, which has no unit, in place of the text `scene` in this `unit`; `None` where that is of SI.
-    pub(crate) fn of(given: &str, (scene, unit): (&str, &str)) -> Option<Self> {
+    /// That of `given`, which has no unit, in place of the text `scene` in this `unit`; `None` where that is of SI, if bare
+    /// numbers are not refused.
+    pub(crate) fn of(given: &str, (scene, unit): (&str, &str), bare: BareNumbers) -> Option<Self> {
         let one = parse_quantity(&format!("1 {unit}")).ok()?;
         let dimension = one.dimension.filter(|own| *own != Dimension::NUMBER)?;
         #[expect(clippy::float_cmp, reason = "1 is the factor of SI units")]
-        let is_si = one.value == 1.0;
+        let is_si = one.value == 1.0 && bare != BareNumbers::Refused;
         let (given, scene, unit) = (given.to_owned(), scene.to_owned(), unit.to_owned());
         (!is_si).then(|| Self { given, si: si_unit(dimension), scene, unit })
     }
@@ -46,12 +47,14 @@ impl BareNumber {
     pub(crate) fn of_set(name: &str, value: &str, scene: (&str, &str)) -> Option<Self> {
         let quantity = parse_quantity(value).ok()?;
         let is_bare = quantity.dimension.is_none() && quantity.value != 0.0;
-        is_bare.then(|| Self::of(&format!("{name}={}", value.trim()), scene)).flatten()
+        let given = || format!("{name}={}", value.trim());
+        is_bare.then(|| Self::of(&given(), scene, BareNumbers::Silent)).flatten()
     }
 
     /// What to write.
     pub fn help(&self) -> String {
         let Self { given, si, unit, .. } = self;
-        format!("write \"{given} {unit}\", or with `{si}` if that is meant")
+        let other = format!(", or with `{si}` if that is meant");
+        format!("write \"{given} {unit}\"{}", if unit == si { "" } else { &other })
     }
 }

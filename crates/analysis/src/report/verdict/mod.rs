@@ -23,6 +23,8 @@ use crate::{
 const MARGIN: f64 = 1e-3;
 /// An error below this part of the size of a value is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Speeds that differ by less than this part are one.
+const SAME_SPEED: f64 = 1e-3;
 
 /// What is to be known first of a run.
 #[derive(Debug, Clone)]
@@ -168,6 +170,8 @@ pub struct Leaving<'r> {
     pub restitution: Option<(f64, Option<f64>)>,
     /// Whether it is that of the element.
     pub of_element: bool,
+    /// The element, where what it is pressed against moves as well, so that its ends part at another speed than the impactor's.
+    pub parting: Option<&'r str>,
 }
 
 /// What is known of the errors of the values.
@@ -400,7 +404,11 @@ impl<'r> Found<'r> {
         };
         let restitution = restitution.filter(|_| returns);
         let (impactor, speed) = (&*node.name, speed.abs());
-        Some(Leaving { impactor, speed, returns, restitution, of_element })
+        let own = speed / node.start_velocity.unwrap_or(0.0).abs();
+        let is_other = |of: &(f64, Option<f64>)| (of.0 - own).abs() > SAME_SPEED * own;
+        let parting = restitution.filter(|of| of_element && is_other(of));
+        let parting = parting.map(|_| &*self.connections()[at].name);
+        Some(Leaving { impactor, speed, returns, restitution, of_element, parting })
     }
 
     /// Whether the end of an element that is not struck is held or has mass: else the speed of its ends is not that of
@@ -424,8 +432,10 @@ impl<'r> Found<'r> {
         let (known, unknown): (Vec<&MeasureReport>, Vec<_>) =
             valued.partition(|own| own.error.is_some());
         let is_small = |measure_report: &&MeasureReport| {
-            let is_rounding =
-                measure_report.error.is_some_and(|error| error <= ROUNDING * measure_report.size);
+            // A time is as long as the run may be.
+            let run = if measure_report.unit == "s" { self.0.energy.time } else { 0.0 };
+            let size = measure_report.size.max(run);
+            let is_rounding = measure_report.error.is_some_and(|error| error <= ROUNDING * size);
             let is_infinite = measure_report.error == Some(f64::INFINITY);
             measure_report.is_next_to_nothing() && !is_rounding && !is_infinite
         };

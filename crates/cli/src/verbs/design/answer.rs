@@ -90,12 +90,16 @@ impl Answer {
         self.found.iter().map(open).sum()
     }
 
-    /// The limits of which it is not known whether the best keeps them, for another reason than scatter.
+    /// The limits of which it is not known whether the best keeps them, for another reason than how many scattered
+    /// designs do.
     pub(super) fn undecided(&self) -> Vec<&str> {
-        let runs = self.best().into_iter().flat_map(|own| &own.1.runs);
-        let all = runs
-            .flat_map(RunReport::judged)
-            .filter(|own| own.judgement.reason().is_some_and(|own| own != Reason::Scatter));
+        let best = self.best().map(|own| own.1);
+        let is_robust = best.is_some_and(|own| own.borne.is_some());
+        let all = best.into_iter().flat_map(|own| &own.runs).flat_map(|run| {
+            let is_cut = run.scatter.as_ref().is_some_and(|own| own.within() < 1.0);
+            let counts = move |own: Reason| own != Reason::Scatter || is_robust && is_cut;
+            run.judged().into_iter().filter(move |own| own.judgement.reason().is_some_and(counts))
+        });
         list(all.map(|own| own.limit.key.as_str()))
     }
 

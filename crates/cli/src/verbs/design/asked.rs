@@ -12,6 +12,7 @@ use super::{
 use crate::{
     counts::{CHOICES, DESIGNS_OF_CHOICES},
     error::CliError,
+    input::bare_numbers,
     output::list,
     varied::Varied,
 };
@@ -117,7 +118,7 @@ impl Asked {
             groups.push(own.len());
             variations.extend(own);
         }
-        let matched = self.tunables.matched(&mut variations).map_err(fault)?;
+        let matched = self.tunables.matched(&mut variations, bare_numbers()).map_err(fault)?;
         let mut each = variations.into_iter().zip(matched);
         for count in groups {
             let group: Vec<(Variation, usize)> = list(each.by_ref().take(count));

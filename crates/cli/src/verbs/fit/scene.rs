@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     error::CliError,
-    input::{Input, setting},
+    input::{Input, bare_numbers, setting},
     operand::{print_notes, read_scene_of},
     out::SceneText,
     output::list,
@@ -415,7 +415,7 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
     let parsed = arguments.vary.iter().map(|own| Variation::parse(own));
     let mut variations = parsed.collect::<Result<Vec<_>, _>>()?;
     let flag = "--vary";
-    let matched = tunables.matched(&mut variations);
+    let matched = tunables.matched(&mut variations, bare_numbers());
     let matched = matched.map_err(|fault| CliError::Tunable { flag, fault })?;
     let varied = variations.iter().zip(matched).map(|(own, at)| {
         let bounds = [own.values[0], own.values[own.len() - 1]];

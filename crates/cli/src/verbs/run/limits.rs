@@ -118,7 +118,16 @@ fn beyond(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
 /// That a limit is kept at the means alone.
 fn of_designs(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
     let is_it = judged.judgement == Judgement::Undecided(Reason::Scatter);
-    let wanted = run.scatter.as_ref().filter(|_| is_it)?.wanted;
+    let scatter = run.scatter.as_ref().filter(|_| is_it)?;
+    let wanted = scatter.wanted;
+    if judged.chance.is_some_and(|own| own.odds.range().0 >= wanted) {
+        return Some(format!(
+            "it passes at the means, but only {} of what scatters is within what the scene allows, and it has to be kept \
+             by {}",
+            percent(scatter.within(), 3),
+            percent(wanted, 3)
+        ));
+    }
     Some(format!(
         "it passes at the means, but the whole range of the probability has to be {} or more, and a larger `--sample` \
          makes it narrower",

@@ -225,7 +225,11 @@ impl Words<'_> {
                             let digits = numbers::digits(value, error, TIME_DIGITS);
                             let value = significant(value, digits);
                             // That of the element's ends may stand in the table besides.
-                            let of = if leaving.of_element { "" } else { " of its speed" };
+                            let of = match leaving.parting {
+                                Some(element) => format!(" between the ends of {element}"),
+                                None if leaving.of_element => String::new(),
+                                None => " of its speed".to_owned(),
+                            };
                             format!(", coefficient of restitution {value}{of}")
                         });
                     format!("; {} {how} at {text}{restitution}", leaving.impactor)

@@ -123,10 +123,12 @@ pub(super) fn treatment(own: &Analysis) -> Vec<String> {
     let rest = own.offset.map(|offset| {
         let shown = digits(offset.value, Some(offset.error), DIGITS);
         let (from, to) = offset.window;
+        let error = offset.uncertainty();
+        let error = error.map(|own| format!(" ± {}", value(own, ERROR_DIGITS)));
         format!(
-            "{} ± {} at rest from {} to {}",
+            "{}{} at rest from {} to {}",
             value(offset.value, shown),
-            value(offset.error, ERROR_DIGITS),
+            error.unwrap_or_default(),
             quantity(from, "s", DIGITS),
             quantity(to, "s", DIGITS)
         )

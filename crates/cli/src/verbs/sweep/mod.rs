@@ -26,7 +26,9 @@ use dashpot_analysis::{
         points_of_shard, sweep as solve, sweep_shard,
     },
 };
-use dashpot_scene::{BareNumbers, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, read};
+use dashpot_scene::{
+    BareNumbers, Checked, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, Variation, read,
+};
 use serde::Serialize;
 
 pub(crate) use self::{
@@ -247,20 +249,29 @@ fn status(report: &SweepReport, enforced: bool) -> Status {
     }
 }
 
-/// What is odd at the ends of ranges and of words besides what is `known` of the scene. A fault there is shown in the
-/// scene's text, with the value under a caret.
+/// What is odd at the ends of ranges and of words besides what is `known` of the scene. A fault of a word, or of all ends, is
+/// shown in the scene's text, with the value under a caret; that of some ends is left to the points.
 fn of_ends(
     (varied, grid, file): (&Varied, &Grid, Option<&Path>),
     (input, set): (&Input, &[(String, String)]),
     known: Vec<Diagnostic>,
 ) -> Result<Diagnostics, CliError> {
     let mut shown = known;
-    let before = shown.len();
-    for point in varied.telling(grid) {
+    let (before, points) = (shown.len(), varied.telling(grid));
+    let mut bare = input.options(set).bare;
+    let ends = points.into_iter().map(|point| {
         let text = varied.text_at(&grid.places(point));
-        // Numbers without a unit are told of the scene alone.
-        let options = ReadOptions { bare: BareNumbers::Silent, ..input.options(set) };
-        let found = read(&text, &options).map_err(CliError::Scene);
+        let options = ReadOptions { bare, ..input.options(set) };
+        // One end tells of numbers without a unit, but where they are refused.
+        bare = if bare == BareNumbers::Refused { bare } else { BareNumbers::Silent };
+        (point, read(&text, &options).map_err(CliError::Scene))
+    });
+    let mut ends: Vec<(usize, Result<Checked<Scene>, CliError>)> = list(ends);
+    let has_words = varied.variations.iter().any(Variation::is_of_words);
+    if !has_words && ends.iter().any(|own| own.1.is_ok()) {
+        ends.retain(|own| own.1.is_ok());
+    }
+    for (point, found) in ends {
         let in_line = varied.lines.get(point).zip(file);
         if let (Err(_), Some((line, file))) = (&found, in_line) {
             note(&format!("line {line} of `{}` gives these values:", file.display()));

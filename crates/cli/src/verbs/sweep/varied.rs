@@ -6,7 +6,12 @@ use dashpot_analysis::sweep::Grid;
 use dashpot_scene::{DataTable, LeftOut, Listed, ListedFault, TunableFault, Tunables, Variation};
 
 use super::SweepArguments;
-use crate::{counts::SWEEP_POINTS, error::CliError, input::Input, terminal::note};
+use crate::{
+    counts::SWEEP_POINTS,
+    error::CliError,
+    input::{Input, bare_numbers},
+    terminal::note,
+};
 
 pub(super) struct Varied {
     pub(super) tunables: Tunables,
@@ -54,13 +59,13 @@ impl Varied {
         let all = arguments.vary.iter().map(|own| Variation::parse(own));
         let mut variations: Vec<Variation> = all.collect::<Result<_, _>>()?;
         let flag = "--vary";
-        let matched = tunables.matched(&mut variations);
+        let matched = tunables.matched(&mut variations, bare_numbers());
         let matched = matched.map_err(|fault| CliError::Tunable { flag, fault })?;
         let mut form = Form::Combined;
         if let Some(count) = arguments.sample {
             variations = Variation::sampled(&variations, count, arguments.seed);
             // They are numbers of the scene once more.
-            let matched = tunables.matched(&mut variations);
+            let matched = tunables.matched(&mut variations, bare_numbers());
             matched.map_err(|fault| CliError::Tunable { flag, fault })?;
             form = Form::Sampled;
         } else if variations.iter().any(Variation::is_of_words) && variations.len() > 1 {
@@ -87,7 +92,7 @@ impl Varied {
         for own in &variations {
             note(&format!("column `{}` is nothing in the scene: it names the designs", own.name));
         }
-        let matched = tunables.matched(&mut others);
+        let matched = tunables.matched(&mut others, bare_numbers());
         let flag = "--points";
         let matched = matched.map_err(|fault| CliError::Tunable { flag, fault })?;
         let of_names = variations.iter().map(|_| None);

@@ -16,7 +16,7 @@ use crate::{
     diagnostics::{Diagnostics, Faults},
     quantities::{
         arithmetic::quietly,
-        bare::BareNumber,
+        bare::{BareNumber, BareNumbers},
         quantity::Values,
         scatter::Scatter,
         values::{Overrides, read as read_values},
@@ -244,8 +244,12 @@ impl Tunables {
     /// # Errors
     ///
     /// A name that leads to none or several, values of another dimension than the number in the text,
-    /// bare ones where that has a unit other than that of SI, and two variations of one number.
-    pub fn matched(&self, variations: &mut [Variation]) -> Result<Vec<usize>, TunableFault> {
+    /// bare ones where that has a unit other than that of SI or they are refused, and two variations of one number.
+    pub fn matched(
+        &self,
+        variations: &mut [Variation],
+        bare: BareNumbers,
+    ) -> Result<Vec<usize>, TunableFault> {
         let mut found: Vec<usize> = Vec::with_capacity(variations.len());
         for place in 0..variations.len() {
             let at = self.find_one(&variations[place].name, variations[place].is_of_words())?;
@@ -259,7 +263,7 @@ impl Tunables {
                 let reason = other_dimension(&variation.text(0), given, wanted);
                 return Err(TunableFault::OtherDimension { name: variation.name.clone(), reason });
             }
-            let bare = || BareNumber::of(&variation.range_text(), self.written(at));
+            let bare = || BareNumber::of(&variation.range_text(), self.written(at), bare);
             if let Some(bare) = variation.dimension.is_none().then(bare).flatten() {
                 return Err(TunableFault::NoUnit(bare));
             }

@@ -1,7 +1,7 @@
 //! Numbers of a scene by name.
 
 use super::*;
-use crate::{ReadOptions, read, reference};
+use crate::{BareNumbers, ReadOptions, read, reference};
 
 const TEXT: &str = r#"
 [values]
@@ -94,7 +94,7 @@ fn variations_are_held_to_the_dimension_of_the_number() {
     let matched = |texts: &[&str]| {
         let mut all: Vec<Variation> =
             texts.iter().map(|text| Variation::parse(text).unwrap()).collect();
-        own.matched(&mut all).map_err(|fault| fault.to_string())
+        own.matched(&mut all, BareNumbers::Silent).map_err(|fault| fault.to_string())
     };
     assert!(matched(&["K2=5..30 MN/m", "head.mass=1..2"]).is_ok());
     let fault = matched(&["K2=5..30 mm"]).unwrap_err();
@@ -105,7 +105,7 @@ fn variations_are_held_to_the_dimension_of_the_number() {
         "`padding.thickness=20..40` has no unit: a bare number is in m, and the scene says 2 cm"
     );
     let bare = Variation::parse("padding.thickness=20..40,5,log").unwrap();
-    let help = own.matched(&mut [bare]).unwrap_err().help();
+    let help = own.matched(&mut [bare], BareNumbers::Silent).unwrap_err().help();
     let expected = "write \"padding.thickness=20..40 cm\", or with `m` if that is meant";
     assert_eq!(help.as_deref(), Some(expected));
     assert!(matched(&["padding.parallel.dashpot=1..2"]).is_ok(), "bare in the scene");
@@ -119,7 +119,7 @@ fn g_is_standard_gravity_where_an_acceleration_varies() {
     let own = Tunables::of(text, None).unwrap();
     let mut all = ["gravity.value=1..3 g,3", "head.mass=10..30 g,3"]
         .map(|own| Variation::parse(own).unwrap());
-    let found = own.matched(&mut all).unwrap();
+    let found = own.matched(&mut all, BareNumbers::Silent).unwrap();
     assert!((own.all()[found[0]].value - 9.80665).abs() < 1e-12);
     assert!((all[0].values[1] - 19.6133).abs() < 1e-12, "{:?}", all[0].values);
     assert!((all[1].values[1] - 0.02).abs() < 1e-15, "{:?}", all[1].values);
