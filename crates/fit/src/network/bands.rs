@@ -66,8 +66,8 @@ impl NetworkFit {
         } else {
             let any = |is_one: fn(&TestFit) -> bool| self.tests.iter().any(is_one);
             let reasons = [
-                (any(|own| own.other_zero.is_some()), NoBand::Contradicted),
                 (any(|own| own.clipped > 0), NoBand::Clipped),
+                (any(|own| own.other_zero.is_some()), NoBand::Contradicted),
                 (any(|own| own.is_missed), NoBand::Missed),
             ];
             reasons.into_iter().find(|own| own.0).map(|own| own.1)
