@@ -534,3 +534,33 @@ fn a_robust_optimum_is_not_claimed_of_a_scatter_that_the_scene_cuts_off() {
     assert_eq!(labels_of(&shown)[..2], ["UNDECIDED"; 2], "{shown}");
     assert!(shown.contains("only 0 % of what scatters is within"), "{shown}");
 }
+
+#[test]
+fn the_peak_force_of_a_pad_that_meets_its_stop_twice_is_that_of_the_whole_impact() {
+    let scene = r#"
+[nodes]
+head  = { mass = "5 kg", velocity = "6.8 m/s" }
+shell = { mass = "300 g" }
+[elements]
+comfort = { between = ["head", "shell"], spring = "60 kN/m", thickness = "10 mm" }
+liner   = { between = ["shell", "ground"], foam = { modulus = "2 MPa", plateau = "0.3 MPa", densification = "0.05 MPa", exponent = 2 }, thickness = "25 mm", area = "60 cm^2" }
+[effects]
+separation.comfort = {}
+separation.liner = {}
+stop.comfort = { at = "8 mm", stiffness = "20 MN/m" }
+[run]
+duration = "60 ms"
+"#;
+    let (_folder, path) = written(scene);
+    let shown = said_out(&["run", &path, "--plot", "never"]);
+    let rest = shown.split("peak force ").nth(1).unwrap();
+    let value: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+    assert!(
+        rest.starts_with(&format!("{} kN in comfort.contact", rest.split(' ').next().unwrap()))
+    );
+    // Of the head alone: its mass times its peak deceleration.
+    let own = json(&["run", &path, "--json"])["runs"][0]["measures"].clone();
+    let force = 5.0 * own["head.peak-acceleration"]["value"].as_f64().unwrap();
+    // To half of the last of three digits.
+    assert!((value - 1e-3 * force).abs() <= 0.051, "{value} kN, {force} N: {shown}");
+}

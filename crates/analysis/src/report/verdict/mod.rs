@@ -244,14 +244,19 @@ impl<'r> Found<'r> {
         &self.0.assembly.connections
     }
 
-    /// In the window of the largest force: at the contact of the padding, or where it has none on what lies behind.
+    /// In the window of the largest force, and of the padding whose stop that acts in: at its contact, or where it has none on
+    /// what lies behind.
     fn whole_force(self) -> Option<WholeForce<'r>> {
         let (headline, most) = self.largest(PeakForce::KIND)?;
-        let (from, to) = headline.window?;
-        let window = WindowWish::Times(from, to);
         let element = self.0.assembly.position(&headline.target)?;
         let pad = self.0.assembly.pads.iter();
         let pad = pad.clone().find(|own| own.element == element || own.stop == Some(element))?;
+        let padding = &self.connections()[pad.element].name;
+        let windows = self.of_kind(PeakForce::KIND).filter(|own| own.target == *padding);
+        let windows = windows.filter_map(|own| own.window);
+        let (from, to) =
+            windows.fold(headline.window?, |one, other| (one.0.min(other.0), one.1.max(other.1)));
+        let window = WindowWish::Times(from, to);
         let solution = self.0.solution();
         let (element, is_behind, reading) = match (pad.contact, pad.stop) {
             (Some(contact), _) => {
