@@ -2,6 +2,7 @@
 
 use dashpot::{
     analysis::{RunReport, Solve, SolveSettings},
+    numerics::Stream,
     scene::{ReadOptions, read},
 };
 
@@ -270,5 +271,65 @@ fn floor_that_starts_and_stops_at_once_hits_and_throws_what_lies_on_it() {
         let report = run(&text(0.5), method);
         is_near(&report, "pad.impulse", 2.0 * 4.5 + 2.0 * 9.81 * 0.05);
         is_near(&report, "pad.energy", 0.5 * 2.0 * 9.0 * 0.75);
+    }
+}
+
+/// A knee that meets a foam pad on a car, which a pulse of so many corners with noise brakes.
+fn knee(corners: u32, gap: f64, noise: f64) -> String {
+    let mut stream = Stream::new(u64::from(corners));
+    let row = |at: u32| {
+        let time = 0.12 * f64::from(at) / f64::from(corners);
+        let bump = |middle: f64, width: f64| (-((time - middle) / width).powi(2)).exp();
+        let pulse = -20.0 * bump(0.03, 0.012) - 12.0 * bump(0.06, 0.02);
+        let pulse = if at == 0 { 0.0 } else { pulse + noise * (stream.share() - 0.5) };
+        format!("[{time:?}, {:?}]", pulse * GRAVITY)
+    };
+    let rows: Vec<String> = (0..=corners).map(row).collect();
+    format!(
+        "[materials]\nsoft = {{ foam = {{ modulus = \"0.8 MPa\", plateau = \"0.15 MPa\", densification = \"40 kPa\", \
+         exponent = 2.5 }} }}\n[nodes]\ncar = {{ velocity = 12, acceleration = {{ table = [{}] }} }}\n\
+         knee = {{ mass = 12, velocity = 12, position = {:?} }}\n[elements]\nskin = {{ between = [\"knee\", \"car\"], \
+         material = \"soft\", thickness = 0.06, area = 0.008 }}\n[effects]\nseparation.skin = {{ at = \"knee\" }}\n\
+         [run]\nduration = 0.12\n",
+        rows.join(", "),
+        -gap
+    )
+}
+
+#[test]
+fn a_measured_pulse_costs_few_steps_a_corner_wherever_the_pad_lets_go() {
+    for corners in [55, 400] {
+        for gap in [0.0, 0.005, 0.04, 0.05, 0.055] {
+            let scene = knee(corners, gap, 3.0);
+            let steps = |method: &str, most: usize| {
+                let report = run_at(&scene, method, Some(1e-6));
+                let steps = report.solver.statistics.accepted;
+                let allowed = most * corners as usize + 200;
+                assert!(steps <= allowed, "{method}, {corners} corners, gap {gap}: {steps}");
+            };
+            steps("dop853", 3);
+            steps("bdf", 30);
+        }
+    }
+}
+
+#[test]
+fn bars_under_a_measured_pulse_hold_where_its_corners_limit_the_steps() {
+    for (corners, gap, noise) in [(120, 0.0, 6.0), (120, 0.005, 6.0), (30, 0.0, 3.0)] {
+        let scene = knee(corners, gap, noise);
+        let own = run(&scene, "auto");
+        assert_eq!(own.solver.method, "dop853");
+        let right = run_at(&scene, "bdf", Some(1e-11));
+        for measure in &own.measures {
+            let (Some(found), Some(error)) = (measure.value, measure.error) else { continue };
+            let right = right.measure(&measure.key).unwrap().value.unwrap();
+            // What the other method leaves.
+            let within = 2.0 * error + 2e-8 * right.abs();
+            let key = &measure.key;
+            assert!(
+                (found - right).abs() <= within,
+                "{corners} {key}: {found} ± {error:e}, {right}"
+            );
+        }
     }
 }

@@ -152,23 +152,25 @@ impl System {
         times
     }
 
-    /// The shortest dimensionless time in which a driving function changes within `[0, end]`: a period,
-    /// or the length of a piece that is not constant. `None` where none changes.
-    pub fn shortest_time(&self, end: f64) -> Option<f64> {
-        let of_pieces = self.waveforms.iter().flat_map(|waveform| {
-            let pieces = waveform.pieces();
-            pieces.iter().enumerate().filter_map(move |(at, piece)| {
-                let until = pieces.get(at + 1).map_or(end, |next| next.start).min(end);
-                let from = piece.start.max(0.0);
-                if piece.is_constant(0) || until <= from {
-                    return None;
-                }
-                let frequency = piece.frequency(from).max(piece.frequency(until));
-                let period = std::f64::consts::TAU / frequency;
-                Some(if period.is_finite() { period.min(until - from) } else { until - from })
-            })
-        });
-        of_pieces.reduce(f64::min)
+    /// The dimensionless time in which driving functions change in a span between two of their breakpoints: the shortest
+    /// period, or length of a piece that is not constant, of which the span may be a part. `None` where none changes.
+    pub fn own_time(&self, (start, end): (f64, f64)) -> Option<f64> {
+        let of = |waveform: &Waveform| {
+            let (piece, next) = waveform.piece_until(start);
+            let frequency = piece.frequency(start).max(piece.frequency(end));
+            let length = next.unwrap_or(end) - piece.start.min(start);
+            (!piece.is_constant(0)).then(|| length.min(std::f64::consts::TAU / frequency))
+        };
+        self.waveforms.iter().filter_map(of).reduce(f64::min)
+    }
+
+    /// The shortest dimensionless period of a driving function in a span, infinite where none oscillates.
+    pub(crate) fn period(&self, (start, end): (f64, f64)) -> f64 {
+        let frequency = |waveform: &Waveform| {
+            let piece = waveform.piece_at(start);
+            piece.frequency(start).max(piece.frequency(end))
+        };
+        std::f64::consts::TAU / self.waveforms.iter().map(frequency).fold(0.0, f64::max)
     }
 
     /// The shortest dimensionless time in which a driving function may go and come back within `[start, end]`, between

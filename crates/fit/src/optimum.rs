@@ -14,6 +14,11 @@ use nalgebra::{DMatrix, DVector};
 
 /// What is to be made small.
 pub trait Residuals {
+    /// Where a step lowers the sum by less than this part, the search has converged.
+    fn cost_change(&self) -> f64 {
+        COST_CHANGE
+    }
+
     /// The residuals; numbers that are not finite where there are none.
     fn residual(&self, unknowns: &[f64]) -> Vec<f64>;
 
@@ -57,7 +62,7 @@ pub fn least_squares(
     let bounded = Bounded { problem, lower: low, upper: high, robust_scale, best: &best };
     let solver = TrustRegionReflective::new()
         .with_absolute_scaled_gradient_tolerance(GRADIENT)
-        .with_relative_cost_change_tolerance(COST_CHANGE);
+        .with_relative_cost_change_tolerance(problem.cost_change());
     let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
     let Ok(own) = own else {
         let Best { cost, unknowns, .. } = best.into_inner();

@@ -1,7 +1,7 @@
 //! What a model answers to a history that was measured.
 
 use dashpot_dae::Signal;
-use dashpot_network::{Model, elements::Law};
+use dashpot_network::Model;
 
 use super::{Obstacle, history::History, lines::Lines, simulation::Rig, solved::solve};
 use crate::Choice;
@@ -42,15 +42,14 @@ pub struct Answer {
 enum Course {
     /// In closed form, from corner to corner of what was done.
     Closed(Lines),
-    /// As the force of laws of the deformation alone, at deformations that are straight between times.
-    Static(Model, Vec<(f64, f64)>),
     /// As a solution of the network.
     Solved(Signal),
 }
 
 impl Answer {
     /// That to what was done, `(time, value)` with rising times \[s\]: zero before the first row, straight from row to
-    /// row. That of a linear model is in closed form; the tolerance is that of the methods which others are solved by.
+    /// row. That of a linear model is in closed form, and that of one beside laws of the deformation alone to a deformation;
+    /// the tolerance is that of the methods which others are solved by.
     ///
     /// # Errors
     ///
@@ -67,10 +66,6 @@ impl Answer {
         if let Some(own) = Lines::of(model, drive, &history) {
             return Ok(Self { course: Course::Closed(own), start, length });
         }
-        if drive == Drive::Deformation && rows.len() > 1 && is_static(model) {
-            let way = rows.iter().map(|own| (own.0 - start, own.1)).collect();
-            return Ok(Self { course: Course::Static(model.clone(), way), start, length });
-        }
         let rig = Rig::new(model, drive, &history);
         let solved = solve(&rig, &Choice::Auto, (length, tolerance), Vec::new())?;
         let number = rig.outputs.first().and_then(|own| solved.assembly.output(own));
@@ -86,12 +81,6 @@ impl Answer {
         match &self.course {
             _ if time < 0.0 => 0.0,
             Course::Closed(own) => own.value(within),
-            Course::Static(model, way) => {
-                let behind = way.partition_point(|own| own.0 <= within).clamp(1, way.len() - 1);
-                let [from, to] = [way[behind - 1], way[behind]];
-                let part = (within - from.0) / (to.0 - from.0);
-                force(model, from.1 + part * (to.1 - from.1))
-            }
             Course::Solved(own) => own.value(within),
         }
     }
@@ -103,14 +92,6 @@ impl Answer {
                 let (time, value) = own.peak();
                 return (time + self.start, value);
             }
-            // No force falls as the deformation grows.
-            Course::Static(model, way) => {
-                let forces = way.iter().map(|own| (own.0 + self.start, force(model, own.1)));
-                let larger = |most: (f64, f64), own: (f64, f64)| {
-                    if own.1.abs() > most.1.abs() { own } else { most }
-                };
-                return forces.fold((self.start, 0.0), larger);
-            }
             Course::Solved(own) => own,
         };
         let peak = signal.absolute_maximum((0.0, self.length));
@@ -118,24 +99,6 @@ impl Answer {
         let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
         (peak.time + self.start, peak.value.copysign(signed))
     }
-}
-
-/// Whether the force of a model is one of its deformation alone.
-fn is_static(model: &Model) -> bool {
-    match model {
-        Model::Part(own) => match own.law() {
-            Law::Spring(_) => true,
-            Law::Nonlinear { damping, .. } => damping <= 0.0,
-            _ => false,
-        },
-        Model::Parallel(branches) => branches.iter().all(|own| is_static(&own.tree)),
-        Model::Series(_) => false,
-    }
-}
-
-/// That force \[N\].
-fn force(model: &Model, deformation: f64) -> f64 {
-    model.leaves().map(|own| own.force(deformation, 0.0)).sum()
 }
 
 #[cfg(test)]
@@ -199,23 +162,29 @@ mod tests {
     }
 
     #[test]
-    fn a_law_of_the_deformation_alone_is_followed_as_the_network_is_solved() {
+    fn laws_of_the_deformation_are_followed_beside_branches_as_the_network_is_solved() {
         let cubic = part(CubicSpring { stiffness: 2e4, cubic: 3e8 });
-        let model = Model::parallel([part(Spring { stiffness: 1e4 }), cubic]);
+        let maxwell =
+            Model::series([part(Spring { stiffness: 8e4 }), part(Dashpot { damping: 8e2 })]);
+        let elastic = Model::parallel([part(Spring { stiffness: 1e4 }), cubic]);
+        let viscous = Model::parallel([elastic.clone(), maxwell]);
         let rows = [(0.1, 0.0), (0.11, 4e-3), (0.2, 5e-3), (0.3, -1e-3)];
-        let own = Answer::to(&model, Drive::Deformation, &rows, 1e-9).unwrap();
-        assert!(matches!(own.course, Course::Static(..)));
-        let history = History::through(rows.iter().map(|own| (own.0 - 0.1, own.1)));
-        let rig = Rig::new(&model, Drive::Deformation, &history);
-        let solved = solve(&rig, &Choice::Auto, (0.2, 1e-9), Vec::new()).unwrap();
-        let number = solved.assembly.output(&rig.outputs[0]).unwrap();
-        let signal = solved.solution().signal(number).clone();
-        let peak = 3e4 * 5e-3 + 3e8 * 5e-3_f64.powi(3);
-        assert!((own.peak().1 - peak).abs() < 1e-12 * peak && (own.peak().0 - 0.2).abs() < 1e-12);
-        for at in 0..200 {
-            let time = 1e-3 * f64::from(at) + 1e-5;
-            let (one, other) = (own.value(time + 0.1), signal.value(time));
-            assert!((one - other).abs() < 1e-7 * peak, "{time}: {one} and {other}");
+        for model in [elastic, viscous] {
+            let own = Answer::to(&model, Drive::Deformation, &rows, 1e-9).unwrap();
+            assert!(matches!(own.course, Course::Closed(..)));
+            let history = History::through(rows.iter().map(|own| (own.0 - 0.1, own.1)));
+            let rig = Rig::new(&model, Drive::Deformation, &history);
+            let solved = solve(&rig, &Choice::Auto, (0.2, 1e-9), Vec::new()).unwrap();
+            let number = solved.assembly.output(&rig.outputs[0]).unwrap();
+            let signal = solved.solution().signal(number).clone();
+            let peak = signal.absolute_maximum((0.0, 0.2));
+            assert!((own.peak().1 - peak.value).abs() < 1e-7 * peak.value, "{:?}", own.peak());
+            assert!((own.peak().0 - 0.1 - peak.time).abs() < 1e-6, "{:?}", own.peak());
+            for at in 0..200 {
+                let time = 1e-3 * f64::from(at) + 1e-5;
+                let (one, other) = (own.value(time + 0.1), signal.value(time));
+                assert!((one - other).abs() < 1e-7 * peak.value, "{time}: {one} and {other}");
+            }
         }
     }
 

@@ -1,6 +1,7 @@
-//! The answer of a linear model to a history of straight lines, in closed form from corner to corner.
+//! The answer of a linear model, and of laws of the deformation alone beside it, to a history of straight lines, in closed
+//! form from corner to corner.
 
-use dashpot_network::Model;
+use dashpot_network::{Model, elements::Law, first_nonlinear};
 use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
 
 use super::{
@@ -11,6 +12,8 @@ use super::{
 
 /// Parts of the time of a branch at which the slope of the answer is looked at for a peak between corners.
 const LOOKS: [f64; 4] = [0.1, 0.4, 1.0, 3.0];
+/// Parts of a line at which it is looked at where laws that are not linear stand beside.
+const PARTS: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
 /// One that relaxes, or creeps, by itself: at a rate \[1/s\], and how much it weighs.
 #[derive(Debug, Clone, Copy)]
@@ -29,24 +32,36 @@ pub(super) struct Lines {
     /// Dashpot beside all else \[N s/m\], or fluidity of one in series \[m/(N s)\].
     dashpot: f64,
     branches: Vec<Branch>,
+    /// Laws of the deformation alone, beside all else.
+    laws: Option<Model>,
     parts: Vec<Line>,
     /// What the branches hold as each line begins, and what has flowed until then, line by line.
     held: Vec<f64>,
 }
 
 impl Lines {
-    /// `None` of models that are not linear or have no such form, of a jump that a dashpot alone meets, and of a history
-    /// that does not go on.
+    /// `None` of models that are neither linear nor that beside laws of the deformation, under a force of all but linear ones, of
+    /// those that have no such form, of a jump that a dashpot alone meets, and of a history that does not go on.
     pub(super) fn of(model: &Model, drive: Drive, history: &History) -> Option<Self> {
-        let specimen = Specimen::new(model).ok().filter(|own| own.linear().is_some())?;
+        let (mut linear, mut laws) = (Vec::new(), Vec::new());
+        divide(model, (&mut linear, &mut laws))?;
+        let laws = if laws.is_empty() { None } else { Some(Model::parallel(laws)) };
+        if laws.is_some() && matches!(drive, Drive::Force) {
+            return None;
+        }
+        let whole = Model::parallel(linear.iter().cloned());
+        let specimen = || Specimen::new(&whole).ok().filter(|own| own.linear().is_some());
         let (spring, dashpot, branches) = match drive {
+            Drive::Deformation if linear.is_empty() => (0.0, 0.0, Vec::new()),
             Drive::Deformation => {
+                let specimen = specimen()?;
                 let form = specimen.maxwell()?;
                 let all = form.elements().into_iter();
                 let all = all.map(|own| Branch { rate: own.rate.high(), strength: own.stiffness });
                 (form.spring(), form.dashpot(), all.collect())
             }
             Drive::Force => {
+                let specimen = specimen()?;
                 let form = specimen.kelvin()?;
                 let all = form.elements().into_iter();
                 let all = all.map(|own| Branch { rate: own.rate.high(), strength: own.compliance });
@@ -60,7 +75,8 @@ impl Lines {
         if lines.is_empty() || lines.len() + 1 < corners.len() || !is_met {
             return None;
         }
-        let mut own = Self { drive, spring, dashpot, branches, parts: lines, held: Vec::new() };
+        let (parts, held) = (lines, Vec::new());
+        let mut own = Self { drive, spring, dashpot, branches, laws, parts, held };
         own.carry(jump);
         Some(own)
     }
@@ -133,7 +149,9 @@ impl Lines {
             Drive::Deformation if self.dashpot > 0.0 => self.dashpot * line.slope,
             _ => 0.0,
         };
-        at_once + by_rate + of_branches
+        let laws = self.laws.iter().flat_map(Model::leaves);
+        let of_laws: f64 = laws.map(|own| own.force(line.from + line.slope * since, 0.0)).sum();
+        at_once + by_rate + of_branches + of_laws
     }
 
     /// How fast the answer changes so long after a line begins.
@@ -149,7 +167,9 @@ impl Lines {
             Drive::Deformation => 0.0,
             Drive::Force => self.dashpot * value,
         };
-        self.spring * line.slope + flow + of_branches
+        let laws = self.laws.iter().flat_map(Model::leaves);
+        let stiffness: f64 = laws.map(|own| own.tangent(value, 0.0).stiffness).sum();
+        (self.spring + stiffness) * line.slope + flow + of_branches
     }
 
     /// Time \[s\] and value of the largest magnitude, at corners and where the slope is zero between them.
@@ -159,6 +179,8 @@ impl Lines {
         for (line, held) in self.parts.iter().zip(self.held.chunks(width)) {
             let mut looks: Vec<f64> =
                 self.branches.iter().flat_map(|own| LOOKS.map(|part| part / own.rate)).collect();
+            let inside = PARTS.map(|part| part * line.length);
+            looks.extend(inside.into_iter().filter(|_| self.laws.is_some()));
             looks.retain(|own| *own < line.length);
             looks.extend([0.0, line.length]);
             looks.sort_by(f64::total_cmp);
@@ -178,6 +200,21 @@ impl Lines {
             }
         }
         best
+    }
+}
+
+/// Divides what stands in parallel into linear models and laws of the deformation alone; `None` where something is neither.
+fn divide(model: &Model, (linear, laws): (&mut Vec<Model>, &mut Vec<Model>)) -> Option<()> {
+    match model {
+        Model::Parallel(branches) => {
+            branches.iter().try_for_each(|own| divide(&own.tree, (&mut *linear, &mut *laws)))
+        }
+        own if first_nonlinear(own).is_none() => Some(linear.push(own.clone())),
+        Model::Part(own) => match own.law() {
+            Law::Nonlinear { damping, .. } if damping <= 0.0 => Some(laws.push(model.clone())),
+            _ => None,
+        },
+        Model::Series(_) => None,
     }
 }
 

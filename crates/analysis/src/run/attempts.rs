@@ -203,11 +203,13 @@ fn forecast_of(task: &Task<'_>, run: &Run, exact: &Outcome) -> f64 {
     Budget::of_step(system.len()) as f64 * radians * in_each
 }
 
-/// The methods that `auto` turns to where this one fails, the last one first.
-pub(crate) fn others(first: &dyn Method) -> Vec<Arc<dyn Method>> {
-    let all: [Arc<dyn Method>; 3] =
+/// The methods that `auto` turns to where this one fails, the last one first. The explicit one `is_allowed` where
+/// `exact` does not get through: it leaves what is stiff to backward differentiation by itself.
+pub(crate) fn others(first: &dyn Method, is_allowed: bool) -> Vec<Arc<dyn Method>> {
+    let implicit: [Arc<dyn Method>; 3] =
         [Arc::new(methods::TrBdf2), Arc::new(methods::Esdirk34), Arc::new(methods::Bdf)];
-    all.into_iter().filter(|own| own.name() != first.name()).collect()
+    let explicit = (first.is_exact() && is_allowed).then(|| Arc::new(methods::Dop853) as _);
+    implicit.into_iter().chain(explicit).filter(|own| own.name() != first.name()).collect()
 }
 
 /// What is said where the last method that is tried fails: what became of the first.

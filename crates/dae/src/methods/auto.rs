@@ -29,11 +29,15 @@ impl Auto {
             Err(other) => return (Box::new(Bdf), other.to_string()),
         };
         let length = run.t_end / system.time_scale;
-        let is_few = system.len() <= MOST_EXPLICIT || system.len() > LEAST_BOUNDED;
-        let is_explicit = is_few
-            && Dop853.applies(system, run).is_ok()
-            && !is_stiff(system, &system.initial, (0.0, length));
+        let is_explicit =
+            Self::allows_explicit(system, run) && !is_stiff(system, &system.initial, (0.0, length));
         (if is_explicit { Box::new(Dop853) } else { Box::new(Bdf) }, declined)
+    }
+
+    /// Whether a system is of a size of which it leaves to [`Dop853`] what is not stiff.
+    pub fn allows_explicit(system: &System, run: &Run) -> bool {
+        let is_few = system.len() <= MOST_EXPLICIT || system.len() > LEAST_BOUNDED;
+        is_few && Dop853.applies(system, run).is_ok()
     }
 }
 

@@ -66,6 +66,12 @@ impl Waveform {
         &self.pieces[self.index_at(t)]
     }
 
+    /// The same, and when the next one begins.
+    pub(crate) fn piece_until(&self, t: f64) -> (&Piece, Option<f64>) {
+        let at = self.index_at(t);
+        (&self.pieces[at], self.pieces.get(at + 1).map(|next| next.start))
+    }
+
     /// The value at `t`, from the right where the function jumps.
     pub fn value(&self, t: f64) -> f64 {
         self.piece_at(t).derivative(0, t)

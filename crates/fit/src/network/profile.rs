@@ -12,6 +12,8 @@ const FIRST: f64 = 0.1;
 const LONGEST: f64 = 1.0;
 /// An end is found to this part of its distance.
 const NEAR: f64 = 0.02;
+/// A refit has converged where a step lowers the sum by less than this part of the rise to an end.
+const ENOUGH: f64 = 1e-3;
 /// Refits on the way to an end.
 const MOST: usize = 14;
 /// A step grows by no more than this.
@@ -33,6 +35,8 @@ struct Held<'h> {
     problem: &'h dyn Residuals,
     at: usize,
     value: f64,
+    /// See [`Residuals::cost_change`].
+    change: f64,
 }
 
 impl Held<'_> {
@@ -44,6 +48,10 @@ impl Held<'_> {
 }
 
 impl Residuals for Held<'_> {
+    fn cost_change(&self) -> f64 {
+        self.change
+    }
+
     fn is_stopped(&self, steps: usize, cost: f64) -> bool {
         self.problem.is_stopped(steps, cost)
     }
@@ -151,7 +159,9 @@ impl<'v, 't> Valley<'v, 't> {
 
     /// The rise with an unknown held at a value, and the unknowns there.
     fn held(&self, at: usize, value: f64, start: &[f64]) -> Option<(f64, Vec<f64>)> {
-        let problem = Held { problem: self.task, at, value };
+        // What is sought is where the sum has risen by so much.
+        let change = (ENOUGH * self.variance * self.quantile.powi(2) / self.cost).min(ENOUGH);
+        let problem = Held { problem: self.task, at, value, change };
         let others = without(start, at);
         if others.is_empty() {
             let cost = sum(&problem.residual(&[]), self.scale);

@@ -8,7 +8,7 @@ use super::{
     Algebra, Integrator, Scheme, Stop, Walk,
     algebra::DENSE_UP_TO,
     balance::Balance,
-    explicit::is_stiff,
+    explicit::{Control, is_stiff},
     failure::Site,
     stack::{ROWS, StackMatrix},
     start,
@@ -74,6 +74,7 @@ fn integrate_in<S: Scheme>(
         further: 0,
         statistics: Statistics::default(),
         span: (0.0, 0.0),
+        control: Control::default(),
         state: system.initial.clone(),
     };
     let ended = if system.is_empty() || run.t_end == 0.0 {
@@ -137,7 +138,7 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
 impl Walk<'_> {
     /// The borders of the spans of a method that estimates its first step from this order, dimensionless.
     ///
-    /// A one-step method judges its steps by the differential unknowns. What follows a driving
+    /// A one-step method judges its steps by the differential unknowns, but for ours. What follows a driving
     /// function through a law that is not linear may need shorter ones than these, so that the spans
     /// of such a method are parts of the function's own time, the shorter the tighter the tolerance.
     fn borders(&self, order: usize) -> Vec<f64> {
@@ -148,11 +149,11 @@ impl Walk<'_> {
         if order < 2 || self.system.is_linear() {
             return borders;
         }
-        let Some(own) = self.system.shortest_time(end) else { return borders };
         let parts = 8.0 * self.run.rtol.powf(-1.0 / (order as f64 + 1.0));
-        let longest = (own / parts).max(end / MOST_SPANS);
         let mut fine = vec![0.0];
         for span in borders.windows(2) {
+            let own = self.system.own_time((span[0], span[1])).unwrap_or(f64::INFINITY);
+            let longest = (own / parts).max(end / MOST_SPANS);
             let count = ((span[1] - span[0]) / longest).ceil().max(1.0);
             let mut at = 1.0;
             while at < count {
@@ -168,10 +169,9 @@ impl Walk<'_> {
     /// that grow, so that what switches in each period of a long motion does not look at all of it each time.
     fn still(&mut self) -> Result<(), Stop> {
         let borders = self.borders(1);
-        let end = self.run.t_end / self.system.time_scale;
-        let first = self.system.shortest_time(end).filter(|_| !self.watch.is_idle());
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
+            let first = self.system.own_time(self.span).filter(|_| !self.watch.is_idle());
             self.pieces.begin(self.system, span[0], &self.state);
             let (mut at, mut part) = (span[0], first.unwrap_or(f64::INFINITY));
             loop {
@@ -218,9 +218,11 @@ impl Walk<'_> {
 
     /// What integrates the current span: an explicit method leaves it to an implicit one where that is stiff.
     fn integrator<S: Scheme>(&self) -> Integrator {
-        let span = (self.span.0, self.span.1 - self.span.0);
+        let left = self.run.t_end / self.system.time_scale - self.span.0;
         match S::INTEGRATOR {
-            Integrator::Dop853 if is_stiff(self.system, &self.state, span) => Integrator::Bdf,
+            Integrator::Dop853 if is_stiff(self.system, &self.state, (self.span.0, left)) => {
+                Integrator::Bdf
+            }
             own => own,
         }
     }
@@ -243,10 +245,18 @@ impl Walk<'_> {
         let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
         let mut restarts = 0;
-        let borders = self.borders(S::ORDER);
+        let borders = match S::INTEGRATOR {
+            // Its steps are judged by the algebraic unknowns as well.
+            Integrator::Dop853 => self.borders(1),
+            _ => self.borders(S::ORDER),
+        };
+        let mut integrator = self.integrator::<S>();
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
-            let mut integrator = self.integrator::<S>();
+            // The explicit method looks at the stiffness by itself as long as it comes on.
+            if !matches!(integrator, Integrator::Dop853) {
+                integrator = self.integrator::<S>();
+            }
             loop {
                 outcome = self.span::<S, M>(integrator, &mut problem, &mut balance);
                 let Err(Stop::Stuck { at, .. }) = outcome else { break };

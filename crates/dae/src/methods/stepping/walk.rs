@@ -3,7 +3,9 @@
 use dashpot_numerics::chebyshev::Interpolation;
 use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector, ode_solver::OdeSolverStatistics};
 
-use super::{Algebra, Stop, algebra::Slice, equations::Equations, failure::Site};
+use super::{
+    Algebra, Stop, algebra::Slice, equations::Equations, explicit::Control, failure::Site,
+};
 use crate::{
     Observer, Output, Progress, Run, Signal, SolveError, Statistics, System, UnknownKind,
     budget::Besides,
@@ -32,6 +34,8 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
     pub(super) span: (f64, f64),
+    /// What the explicit method knows from the spans before.
+    pub(super) control: Control,
     /// The unknowns at the end of the last span, or where the integrator got stuck in it.
     pub(super) state: Vec<f64>,
 }

@@ -21,6 +21,8 @@ const SAFETY: f64 = 0.9;
 const CAUTION: f64 = 100.0;
 /// What a step may be longer and shorter by than the one before.
 const GROWTH: (f64, f64) = (1.0 / 3.0, 6.0);
+/// The longest step in periods of the fastest driving function at the tolerance [`COARSE`]: a longer one might miss it.
+const OF_PERIOD: f64 = 0.25;
 /// Part of a step whose balances have no solution that is tried next.
 const RETREAT: f64 = 0.25;
 /// A step may end beyond the end of the span by this part of itself: it is made to end there.
@@ -76,14 +78,16 @@ pub(super) fn span(
 ) -> Result<(), Stop> {
     let mut own = Integrator::new(walk.system, walk.span.0, state);
     let length = walk.span.1 - walk.span.0;
-    let outcome = own.advance(walk, (first.min(length), length), tolerance);
+    let outcome = own.advance(walk, (first, length), tolerance);
     walk.statistics.rhs_calls += own.reduced.calls;
     outcome
 }
 
-/// What limits the steps.
+/// What limits the steps, from span to span.
 #[derive(Debug, Default)]
-struct Control {
+pub(super) struct Control {
+    /// The next step; none before the first one.
+    step: Option<f64>,
     /// The longest step in units of the fastest rate.
     longest: f64,
     /// The fastest rate that is known, and the steps since the last look.
@@ -96,7 +100,7 @@ struct Control {
 
 impl Control {
     /// Takes down a step that has shown the rate `shown`. Whether too many steps as short as stability asks for
-    /// are to come in the time `left`, as far as the linearised equations tell, at which `look` looks; few of them
+    /// are to come in the time `left` of the run, as far as the linearised equations tell, at which `look` looks; few of them
     /// are tried all the same.
     fn is_stiff(
         &mut self,
@@ -160,17 +164,25 @@ impl<'s> Integrator<'s> {
     fn advance(
         &mut self,
         walk: &mut Walk<'_>,
-        (mut step, length): (f64, f64),
+        (first, length): (f64, f64),
         tolerance: (f64, &[f64]),
     ) -> Result<(), Stop> {
         let (method, system, start) = (walk.method, walk.system, walk.span.0);
+        let end = walk.run.t_end / system.time_scale;
         let site = |t: f64| Site { method, time: (start + t) * system.time_scale, system };
         if self.reduced.slopes(0.0, &mut self.before, &mut self.slopes[0]).is_err() {
             return Err(self.stuck(walk, 0.0, site(0.0)));
         }
-        let mut control = Control { longest: longest(tolerance.0), ..Control::default() };
+        let mut control = std::mem::take(&mut walk.control);
+        let share = share(tolerance.0);
+        control.longest = LONGEST * share;
+        // Where corners limit the steps, and not their errors, they would be the same at all tolerances.
+        let limit = if length < end { share * length } else { length };
+        let mut wanted = control.step.unwrap_or(first);
         let mut t = 0.0;
         while t < length {
+            let driven = system.period((start + t, start + (t + wanted).min(length)));
+            let mut step = wanted.min(limit).min(OF_PERIOD * share * driven);
             if t + (1.0 + STRETCH) * step >= length {
                 step = length - t;
             }
@@ -188,7 +200,7 @@ impl<'s> Integrator<'s> {
             if is_accepted {
                 site(to).finite(&self.after)?;
                 let look = || self.reduced.rates(to, &self.after);
-                if control.is_stiff(self.shown, length - to, look) {
+                if control.is_stiff(self.shown, end - start - to, look) {
                     return Err(self.stuck(walk, t, site(t)));
                 }
                 factor = control.stable(step, factor);
@@ -201,8 +213,11 @@ impl<'s> Integrator<'s> {
                 let (work, time) = (walk.run.budget.done(), site(t).time);
                 return Err(SolveError::BudgetSpent { method, time, work }.into());
             }
-            step *= factor;
+            // What cuts a step is no reason for a shorter one behind it.
+            let kept = if is_accepted { wanted.min(control.longest / control.rate) } else { 0.0 };
+            wanted = if step < wanted { kept.max(step * factor) } else { step * factor };
         }
+        walk.control = Control { step: Some(wanted), ..control };
         walk.state.copy_from_slice(&self.before);
         Ok(())
     }
@@ -370,9 +385,9 @@ impl<'s> Integrator<'s> {
     }
 }
 
-/// See [`LONGEST`].
-fn longest(rtol: f64) -> f64 {
-    LONGEST * (rtol / COARSE).powf(0.125).min(1.0)
+/// By what a step shrinks with the tolerance where something else limits it.
+fn share(rtol: f64) -> f64 {
+    (rtol / COARSE).powf(0.125).min(1.0)
 }
 
 /// Whether stability asks for too many steps to begin a span from `start` of this length, both dimensionless, where
