@@ -1,7 +1,7 @@
 //! The answer of a linear model, and of laws of the deformation alone beside it, to a history of straight lines, in closed
 //! form from corner to corner.
 
-use dashpot_network::{Model, elements::Law, first_nonlinear};
+use dashpot_network::{Element, Model, elements::Law, first_nonlinear};
 use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
 
 use super::{
@@ -44,7 +44,9 @@ impl Lines {
     /// those that have no such form, of a jump that a dashpot alone meets, and of a history that does not go on.
     pub(super) fn of(model: &Model, drive: Drive, history: &History) -> Option<Self> {
         let (mut linear, mut laws) = (Vec::new(), Vec::new());
-        divide(model, (&mut linear, &mut laws))?;
+        if !divide(model, (&mut linear, &mut laws)) {
+            return None;
+        }
         let laws = if laws.is_empty() { None } else { Some(Model::parallel(laws)) };
         if laws.is_some() && matches!(drive, Drive::Force) {
             return None;
@@ -203,18 +205,23 @@ impl Lines {
     }
 }
 
-/// Divides what stands in parallel into linear models and laws of the deformation alone; `None` where something is neither.
-fn divide(model: &Model, (linear, laws): (&mut Vec<Model>, &mut Vec<Model>)) -> Option<()> {
+/// Divides what stands in parallel into linear models and laws of the deformation alone; whether that is all there is.
+fn divide(model: &Model, (linear, laws): (&mut Vec<Model>, &mut Vec<Model>)) -> bool {
+    let is_law =
+        |own: &dyn Element| matches!(own.law(), Law::Nonlinear { damping, .. } if damping <= 0.0);
     match model {
         Model::Parallel(branches) => {
-            branches.iter().try_for_each(|own| divide(&own.tree, (&mut *linear, &mut *laws)))
+            branches.iter().all(|own| divide(&own.tree, (&mut *linear, &mut *laws)))
         }
-        own if first_nonlinear(own).is_none() => Some(linear.push(own.clone())),
-        Model::Part(own) => match own.law() {
-            Law::Nonlinear { damping, .. } if damping <= 0.0 => Some(laws.push(model.clone())),
-            _ => None,
-        },
-        Model::Series(_) => None,
+        own if first_nonlinear(own).is_none() => {
+            linear.push(own.clone());
+            true
+        }
+        Model::Part(own) if is_law(own.as_ref()) => {
+            laws.push(model.clone());
+            true
+        }
+        _ => false,
     }
 }
 
