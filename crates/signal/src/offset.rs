@@ -116,7 +116,7 @@ impl Offset {
         let third = (values.len() - ended) / 3;
         let [one, two, three] = [0, 1, 2].map(|own| mean(&values[ended + own * third..][..third]));
         let (lost, more) = (one / two, two / three);
-        let length = times[ended + third - 1] - times[ended];
+        let length = times[ended + third] - times[ended];
         let scatter =
             5.0 * self.noise.max(0.5 * channel.resolution()) * (2.0 / third as f64).sqrt();
         let reads = one * lost.sqrt();

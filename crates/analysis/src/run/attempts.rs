@@ -203,12 +203,12 @@ fn forecast_of(task: &Task<'_>, run: &Run, exact: &Outcome) -> f64 {
     Budget::of_step(system.len()) as f64 * radians * in_each
 }
 
-/// The methods that `auto` turns to where this one fails, the last one first. The explicit one `is_allowed` where
-/// `exact` does not get through: it leaves what is stiff to backward differentiation by itself.
-pub(crate) fn others(first: &dyn Method, is_allowed: bool) -> Vec<Arc<dyn Method>> {
+/// The methods that `auto` turns to where this one fails, the last one first. Where `exact` does not get through
+/// the explicit one comes first, if the system `allows_explicit`: it leaves what is stiff to backward differentiation by itself.
+pub(crate) fn others(first: &dyn Method, allows_explicit: bool) -> Vec<Arc<dyn Method>> {
     let implicit: [Arc<dyn Method>; 3] =
         [Arc::new(methods::TrBdf2), Arc::new(methods::Esdirk34), Arc::new(methods::Bdf)];
-    let explicit = (first.is_exact() && is_allowed).then(|| Arc::new(methods::Dop853) as _);
+    let explicit = (first.is_exact() && allows_explicit).then(|| Arc::new(methods::Dop853) as _);
     implicit.into_iter().chain(explicit).filter(|own| own.name() != first.name()).collect()
 }
 

@@ -55,8 +55,8 @@ pub fn solve_assembly(
     // Each attempt is by a method of its own.
     let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
     let found = first.and_then(|first| {
-        let is_allowed = methods::Auto::allows_explicit(&assembly.system, &run);
-        let others = || attempts::others(first.0.as_ref(), is_allowed);
+        let allows_explicit = methods::Auto::allows_explicit(&assembly.system, &run);
+        let others = || attempts::others(first.0.as_ref(), allows_explicit);
         let mut others = if is_free { others() } else { Vec::new() };
         let most = if reach.is_some() { attempts::UNDEFINED } else { u64::MAX };
         let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;

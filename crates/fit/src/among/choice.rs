@@ -53,7 +53,8 @@ pub enum Verdict {
     Chosen,
     /// It is near enough, with no fewer numbers.
     NotNeeded,
-    /// It leaves more than one of fewer numbers, which is a limit of it: its search ended elsewhere than at its minimum.
+    /// It leaves more than one of fewer numbers, which is a limit of it: its search ended elsewhere than at its minimum, or
+    /// that lies beyond the bounds.
     NotConverged,
     /// Another is nearer.
     TooFar,

@@ -170,7 +170,8 @@ pub struct Leaving<'r> {
     pub restitution: Option<(f64, Option<f64>)>,
     /// Whether it is that of the element.
     pub of_element: bool,
-    /// The element, where what it is pressed against moves as well, so that its ends part at another speed than the impactor's.
+    /// The element, where its ends part at another part of their speed than the impactor has of that at its start: what it
+    /// is pressed against moves, or the impactor was sped up before.
     pub parting: Option<&'r str>,
 }
 

@@ -175,7 +175,9 @@ impl Among {
         match self.choice.verdicts[at] {
             Verdict::Chosen => "chosen",
             Verdict::NotNeeded => "no fewer numbers, and no nearer",
-            Verdict::NotConverged => "not converged: a form that it contains is nearer",
+            Verdict::NotConverged => {
+                "not converged, or at a bound: a form that it contains is nearer"
+            }
             Verdict::TooFar => "too far",
             Verdict::NotFitted => "not fitted",
         }

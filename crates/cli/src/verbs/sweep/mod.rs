@@ -262,9 +262,12 @@ fn of_ends(
     let ends = points.into_iter().map(|point| {
         let text = varied.text_at(&grid.places(point));
         let options = ReadOptions { bare, ..input.options(set) };
+        let found = read(&text, &options).map_err(CliError::Scene);
         // One end tells of numbers without a unit, but where they are refused.
-        bare = if bare == BareNumbers::Refused { bare } else { BareNumbers::Silent };
-        (point, read(&text, &options).map_err(CliError::Scene))
+        if found.is_ok() && bare == BareNumbers::Warned {
+            bare = BareNumbers::Silent;
+        }
+        (point, found)
     });
     let mut ends: Vec<(usize, Result<Checked<Scene>, CliError>)> = list(ends);
     let has_words = varied.variations.iter().any(Variation::is_of_words);

@@ -138,7 +138,7 @@ fn admit<S: Scheme>(system: &System, run: &Run) -> Result<(), SolveError> {
 impl Walk<'_> {
     /// The borders of the spans of a method that estimates its first step from this order, dimensionless.
     ///
-    /// A one-step method judges its steps by the differential unknowns, but for ours. What follows a driving
+    /// A one-step method other than `dop853` judges its steps by the differential unknowns. What follows a driving
     /// function through a law that is not linear may need shorter ones than these, so that the spans
     /// of such a method are parts of the function's own time, the shorter the tighter the tolerance.
     fn borders(&self, order: usize) -> Vec<f64> {
@@ -253,7 +253,7 @@ impl Walk<'_> {
         let mut integrator = self.integrator::<S>();
         for span in borders.windows(2) {
             self.span = (span[0], span[1]);
-            // The explicit method looks at the stiffness by itself as long as it comes on.
+            // The explicit method looks at the stiffness by itself as long as it makes progress.
             if !matches!(integrator, Integrator::Dop853) {
                 integrator = self.integrator::<S>();
             }

@@ -21,6 +21,9 @@ const SAFETY: f64 = 0.9;
 const CAUTION: f64 = 100.0;
 /// What a step may be longer and shorter by than the one before.
 const GROWTH: (f64, f64) = (1.0 / 3.0, 6.0);
+/// The longest step in parts of a span between corners at the tolerance [`COARSE`]: errors fall by its power of the order
+/// where it limits the steps, and half of a span is short enough for that to be seen.
+const OF_SPAN: f64 = 0.5;
 /// The longest step in periods of the fastest driving function at the tolerance [`COARSE`]: a longer one might miss it.
 const OF_PERIOD: f64 = 0.25;
 /// Part of a step whose balances have no solution that is tried next.
@@ -177,7 +180,8 @@ impl<'s> Integrator<'s> {
         let share = share(tolerance.0);
         control.longest = LONGEST * share;
         // Where corners limit the steps, and not their errors, they would be the same at all tolerances.
-        let limit = if length < end { share * length } else { length };
+        let of_span = OF_SPAN * (tolerance.0 / COARSE).powf(0.125);
+        let limit = if length < end { of_span * length } else { length };
         let mut wanted = control.step.unwrap_or(first);
         let mut t = 0.0;
         while t < length {
