@@ -141,8 +141,8 @@ pub(crate) fn follow<const N: usize>(
             off.iter().zip(sizes).map(|(off, size)| (off / (rtol * size)).powi(2)).sum();
         let error = (error / counted).sqrt();
         let factor = (0.9 * error.max(1e-10).powf(-0.2)).clamp(0.2, 5.0);
-        if error > 1.0 {
-            length *= factor.min(1.0);
+        if !error.is_finite() || error > 1.0 {
+            length *= if error.is_finite() { factor.min(1.0) } else { 0.2 };
             continue;
         }
         let step = Step::of(&state, &next, &slopes, length);

@@ -20,6 +20,7 @@ mod foam;
 mod formulas;
 #[path = "../equal_error/impact.rs"]
 mod impact;
+mod record;
 mod runs;
 mod thesis;
 

@@ -1,11 +1,11 @@
 //! Single runs, from a network to its report: by hand and by ours.
 
-use std::hint::black_box;
+use std::{cell::RefCell, hint::black_box};
 
 use dashpot::analysis::{Accuracy, Solve, SolveSettings, sweep::ScenePoint};
 
 use super::{
-    Contender, foam, impact, race,
+    Contender, foam, impact, race, record,
     thesis::{self, Besides},
     tolerance, tolerances,
 };
@@ -27,6 +27,8 @@ struct Run<'r> {
 }
 
 pub(crate) fn runs() {
+    let knee = RefCell::new(record::Knee::new());
+    let only = std::env::var("RUN").unwrap_or_default();
     for run in [
         Run {
             name: "a drop on foam",
@@ -46,8 +48,16 @@ pub(crate) fn runs() {
             keys: &thesis::KEYS,
             by_hand: &|rtol| black_box(Besides::Stop(0)).by_hand(rtol).to_vec(),
         },
+        Run {
+            name: "a knee under a measured pulse",
+            scene: record::scene(),
+            keys: &record::KEYS,
+            by_hand: &|rtol| black_box(&knee).borrow_mut().by_hand(rtol).to_vec(),
+        },
     ] {
-        [1e-3, 1e-6].into_iter().for_each(|accuracy| run.race(accuracy));
+        if run.name.contains(only.as_str()) {
+            [1e-3, 1e-6].into_iter().for_each(|accuracy| run.race(accuracy));
+        }
     }
     reference();
 }

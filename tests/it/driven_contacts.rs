@@ -314,6 +314,67 @@ fn a_measured_pulse_costs_few_steps_a_corner_wherever_the_pad_lets_go() {
 }
 
 #[test]
+fn rows_that_hold_noise_alone_cost_no_steps() {
+    let scene = knee(2400, 0.05, 3.0);
+    for (rtol, most) in [(1e-4, 40), (1e-6, 100)] {
+        let report = run_at(&scene, "dop853", Some(rtol));
+        let steps = report.solver.statistics.accepted;
+        assert!(steps <= most, "{rtol:e}: {steps} steps");
+    }
+}
+
+/// A block on a pad before a plate on a mount; the mount, or the plate, is driven by so many rows of noise with a spike a
+/// row wide.
+fn noisy(rows: u32, drives: &str, unit: &str) -> String {
+    let mut stream = Stream::new(u64::from(rows));
+    let row = |at: u32| {
+        let spike = if at == rows / 3 { 400.0 } else { 0.0 };
+        let value = if at == 0 { 0.0 } else { 60.0 * (stream.share() - 0.5) + spike };
+        format!("[\"{:?} s\", \"{value:?} {unit}\"]", 0.06 * f64::from(at) / f64::from(rows))
+    };
+    let rows: Vec<String> = (0..=rows).map(row).collect();
+    format!(
+        "[nodes]\nplate = {{ mass = \"2 kg\" }}\nblock = {{ mass = \"12 kg\", velocity = \"2 m/s\", position = \"-1 mm\" \
+         }}\nbase = {{ velocity = 0{} }}\n[elements]\npad = {{ between = [\"block\", \"plate\"], kelvin-voigt = {{ \
+         spring = \"80 kN/m\", dashpot = \"150 N s/m\" }} }}\nmount = {{ between = [\"plate\", \"base\"], kelvin-voigt = {{ \
+         spring = \"200 kN/m\", dashpot = \"300 N s/m\" }} }}\n[effects]\nseparation.pad = {{ at = \"block\" }}\n{}\
+         [run]\nduration = \"60 ms\"\n",
+        if drives == "base" {
+            format!(", acceleration = {{ table = [{}] }}", rows.join(", "))
+        } else {
+            String::new()
+        },
+        if drives == "plate" {
+            format!("[loads.push]\non = \"plate\"\nforce = {{ table = [{}] }}\n", rows.join(", "))
+        } else {
+            String::new()
+        }
+    )
+}
+
+#[test]
+fn what_crosses_rows_of_noise_misses_none_of_their_impulse() {
+    for (rows, drives, unit) in
+        [(60, "base", "m/s^2"), (1200, "base", "m/s^2"), (1200, "plate", "N")]
+    {
+        let scene = noisy(rows, drives, unit);
+        let right = run(&scene, "exact");
+        for rtol in [None, Some(1e-5), Some(1e-8)] {
+            let own = run_at(&scene, "dop853", rtol);
+            for measure in &own.measures {
+                let (Some(found), Some(error)) = (measure.value, measure.error) else { continue };
+                let right = right.measure(&measure.key).unwrap().value.unwrap();
+                let (key, within) = (&measure.key, 2.0 * error + 1e-11 * right.abs());
+                assert!(
+                    (found - right).abs() <= within,
+                    "{rows} rows on {drives}, {rtol:?}, {key}: {found} ± {error:e}, {right}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn bars_under_a_measured_pulse_hold_where_its_corners_limit_the_steps() {
     for (corners, gap, noise) in [(120, 0.0, 6.0), (120, 0.005, 6.0), (30, 0.0, 3.0)] {
         let scene = knee(corners, gap, noise);
