@@ -5,6 +5,7 @@
 //! out by hand here and solved by the classical Runge–Kutta method with fixed steps.
 
 mod by_hand;
+mod crash;
 mod drops;
 mod machines;
 mod pads;

@@ -27,13 +27,15 @@ pub(crate) struct Bar {
     shown: Option<ProgressBar>,
     is_seen: bool,
     next: Duration,
+    /// The number of the solution, and the time that it has reached \[s\].
+    solution: (usize, f64),
 }
 
 impl Bar {
     /// A bar for work of this name, a run until `end` \[s\]; lines if nobody sees it.
     pub(crate) fn new(word: &str, end: f64, is_seen: bool) -> Self {
         let (word, started) = (word.to_owned(), Instant::now());
-        Self { word, end, started, shown: None, is_seen, next: FIRST }
+        Self { word, end, started, shown: None, is_seen, next: FIRST, solution: (1, 0.0) }
     }
 
     /// Shows which share is done, with a word on it.
@@ -76,10 +78,16 @@ impl Bar {
 }
 
 impl Observer for Bar {
-    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
-        self.show(progress.time / self.end, || {
-            let time = format_quantity(progress.time, Dimension::TIME, 3);
-            format!("{time}, {} steps", progress.steps)
+    /// Errors are estimated from further solutions, each of which begins anew, and whose measures are read at its end.
+    fn progress(&mut self, Progress { time, steps }: Progress) -> ControlFlow<()> {
+        let (number, before) = self.solution;
+        let number = number + usize::from(time < before);
+        self.solution = (number, time);
+        let end = self.end;
+        self.show(time / end, || {
+            let what = if time < end { "solving" } else { "reading" };
+            let time = format_quantity(time, Dimension::TIME, 3);
+            format!("{what} solution {number} at {time}, {steps} steps")
         })
     }
 }
@@ -97,6 +105,15 @@ fn bar(word: &str) -> ProgressBar {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn solutions_that_begin_anew_are_counted() {
+        let mut bar = Bar::new("auto", 1.0, false);
+        for time in [0.2, 0.9, 1.0, 1.0, 0.1, 0.1, 1.0, 0.3] {
+            assert!(bar.progress(Progress { time, steps: 1 }).is_continue());
+        }
+        assert_eq!(bar.solution.0, 3);
+    }
 
     #[test]
     fn lines_become_rarer_as_work_goes_on() {

@@ -11,10 +11,11 @@ use crate::scenes::scene_path;
 const CHAPTER: &str = "docs/accuracy-and-cost.md";
 const PLACE: (&str, &str) = ("<!-- measured: cost -->", "<!-- end -->");
 /// Scenes with what they stand for.
-const SCENES: [(&str, &str); 3] = [
+const SCENES: [(&str, &str); 4] = [
     ("reference", "The reference impact: linear"),
     ("reference-stiff", "The same with a stiff mount"),
     ("helmet-drop", "A helmet that bottoms out: it switches"),
+    ("knee-crash", "A knee under a measured pulse: driven by 61 rows"),
 ];
 /// Figures that `cost` draws, with the name under which they are kept.
 const FIGURES: [(&str, &str); 2] =

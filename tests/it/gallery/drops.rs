@@ -9,7 +9,7 @@ use super::{
 };
 
 /// The stress of the foam's law at a strain.
-fn foam(strain: f64, [modulus, plateau, densification, exponent]: [f64; 4]) -> f64 {
+pub(super) fn foam(strain: f64, [modulus, plateau, densification, exponent]: [f64; 4]) -> f64 {
     plateau * (1.0 - (-modulus * strain / plateau).exp())
         + densification * (strain / (1.0 - strain)).powf(exponent)
 }

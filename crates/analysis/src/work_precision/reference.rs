@@ -24,9 +24,10 @@ const OF_ALL: usize = 4;
 /// Tolerances of the solutions by steps: the first at which a method succeeds counts.
 const TIGHT: [f64; 4] = [1e-12, 1e-11, 1e-10, 1e-9];
 /// The methods that may give a reference, with their families, in the order in which they are tried.
-const FAMILIES: [(&str, Family); 4] = [
+const FAMILIES: [(&str, Family); 5] = [
     (methods::Bdf::KIND, Family::Multistep),
     (methods::Esdirk34::KIND, Family::Implicit),
+    (methods::Dop853::KIND, Family::Explicit),
     (methods::Tsit45::KIND, Family::Explicit),
     (methods::TrBdf2::KIND, Family::Implicit),
 ];

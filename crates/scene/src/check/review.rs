@@ -293,9 +293,10 @@ fn drift(reading: &Reading<'_>, (name, driven): (&str, &Item), motion: &Waveform
         return;
     };
     let is_sine = entry.key == "sine";
-    // A shock of one sign is meant to leave its support with a speed.
+    // A shock of one sign is meant to leave its support with a speed; what starts with one is meant to travel.
     let is_shaken = is_sine || is_table(&entry.key) && shakes(motion);
-    if !is_shaken {
+    let travels = motion.piece_at(0.0).derivative(1, 0.0) != 0.0;
+    if !is_shaken || travels {
         return;
     }
     let end = motion.value(duration);

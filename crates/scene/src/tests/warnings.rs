@@ -235,6 +235,9 @@ fn a_support_that_drifts_away_is_told_with_its_way() {
     let shown = table("[[0, 3], [0.05, 3], [0.05, -1], [0.1, -1], [0.1, 0]]");
     has(&shown, &["`base` drift away: 50.000 mm in 500 ms", "take its mean off the record"]);
     assert_eq!(table("[[0, 1], [0.05, 1], [0.05, -1], [0.1, -1], [0.1, 0]]"), "");
+    // A car that is braked goes on on purpose.
+    let braked = "{ velocity = 9, acceleration = { table = [[0, -3], [0.4, -30], [0.5, 1]] } }";
+    assert_eq!(driven(braked, ""), "");
     // A shock leaves the table with a speed on purpose.
     assert_eq!(table("[[0, 0], [0.005, 400], [0.01, 0]]"), "");
     assert_eq!(driven("{ motion = { sine = { amplitude = 1, frequency = 10 } } }", ""), "");
