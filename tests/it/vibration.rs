@@ -7,7 +7,7 @@ use dashpot::{
     analysis::{
         MeasureWish, Solve, SolveSettings,
         measures::{PeakAcceleration, PeakDeformation, PeakForce},
-        vibration::{SweepSettings, Vibration, VibrationError},
+        vibration::{QUANTITIES, SweepSettings, Vibration, VibrationError},
     },
     dae::{Piece, Waveform, methods::Exact},
     network::{
@@ -148,6 +148,47 @@ fn amplitudes_are_within_their_errors_of_what_poles_and_strengths_give() {
     assert!(count > 500, "{count}");
 }
 
+/// The force over the displacement of the node that it pushes is one over the receptance of the network there.
+#[test]
+fn dynamic_stiffness_is_that_of_poles_and_strengths() {
+    let mut dice = Dice(0x5eed_0051);
+    let mut count = 0;
+    for _ in 0..60 {
+        let mut network = Recipe::draw(&mut dice, 6.0).build();
+        let head =
+            network.nodes().map(|node| node.0).find(|id| network.node(*id).mass > 0.0).unwrap();
+        let ground = network.ground();
+        let Ok(Response::Massive(receptance)) = network.driving_point(head, ground) else {
+            continue;
+        };
+        network.add_load("ram", head, Waveform::constant(1.0));
+        let Ok(vibration) = Vibration::new(&network, 1.0, Some("ram")) else { continue };
+        let of = ["dynamic-stiffness", "apparent-mass"]
+            .map(|word| format!("{}.{word}", network.node(head).name))
+            .to_vec();
+        let from = dice.decades(4.0);
+        let settings = SweepSettings { from: Some(from), to: Some(9.0 * from), points: 5, of };
+        let sweep = vibration.sweep(&settings).unwrap();
+        for (at, frequency) in sweep.frequencies.iter().enumerate() {
+            let omega = TAU * frequency;
+            let ([re, im], threshold) = by_poles(&receptance, omega);
+            let size = re * re + im * im;
+            for (order, own) in [(0, &sweep.transmissions[0]), (2, &sweep.transmissions[1])] {
+                let Some(own) = own.swings[at] else { continue };
+                // F/A is −1/ω² times F/X.
+                let (scale, turn) = if order == 0 { (1.0, 1.0) } else { (omega.powi(-2), -1.0) };
+                let (x, y) = (own.amplitude * own.phase.cos(), own.amplitude * own.phase.sin());
+                let off = (x - scale * turn * re / size).hypot(y + scale * turn * im / size);
+                let allowed =
+                    own.error + scale * threshold / size + 8.0 * f64::EPSILON * own.amplitude;
+                assert!(off <= allowed, "{network:?} {frequency} {order}: {off:e} > {allowed:e}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 200, "{count}");
+}
+
 #[test]
 fn a_pad_with_mass_passes_forces_on_as_it_passes_motions_on() {
     let layer = |name: &str, stiffness: f64, damping: f64| Layer {
@@ -239,6 +280,44 @@ fn the_command_shows_resonances_and_a_table_and_writes_files() {
 }
 
 #[test]
+fn quantities_have_their_units_in_every_output() {
+    let folder = TempDir::new().unwrap();
+    let scene = file(&folder, "instrument.toml", SCENE);
+    let target = folder.path().join("results");
+    let of = "case,isolator.force,standoff.power,floor.apparent-mass";
+    let arguments = ["vibrate", text(&scene), "--of", of, "--plot", "always"];
+    let output = run(&[&arguments[..], &["--out", text(&target)]].concat());
+    let shown = out(&output).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    // Nothing holds the instrument but the floor: at rest it is 8.3 kg.
+    for fact in ["Apparent mass: force of the drive", "8.300 kg of floor.apparent-mass", "kN/m"] {
+        assert!(shown.contains(fact), "{fact}:\n{shown}");
+    }
+    let csv = std::fs::read_to_string(target.join("response.csv")).unwrap();
+    let header = csv.lines().next().unwrap();
+    let units = ["case [1]", "isolator.force [N/m]", "standoff.power [W/m^2]"];
+    for column in units.iter().chain(&["floor.apparent-mass [kg]"]) {
+        assert!(header.contains(&format!("ratio of {column},")), "{header}");
+    }
+    for name in ["transmissibility", "force", "power", "apparent-mass", "phase"] {
+        assert!(target.join(format!("{name}.svg")).is_file(), "{name}");
+    }
+    let result = std::fs::read_to_string(target.join("result.json")).unwrap();
+    let responses = serde_json::from_str::<Value>(&result).unwrap()["responses"].clone();
+    assert_eq!(responses[3]["quantity"], "apparent-mass");
+    assert_eq!([&responses[2]["unit"], &responses[2]["phase"]], [&"W/m^2".into(), &Value::Null]);
+    let output = run(&["vibrate", text(&scene), "--of", "isolator.power,case.impedance"]);
+    let told = said(&output);
+    assert_eq!(code(&output), 2);
+    assert!(
+        told.contains("`case` is no node that the drive moves; there is only `floor`"),
+        "{told}"
+    );
+    let help = out(&run(&["vibrate", "--help"]));
+    QUANTITIES.iter().for_each(|own| assert!(help.contains(own.word), "{}", own.word));
+}
+
+#[test]
 fn json_has_the_steady_state_in_si_units() {
     let folder = TempDir::new().unwrap();
     let scene = file(&folder, "instrument.toml", SCENE);
@@ -267,10 +346,16 @@ fn a_wrong_amplitude_and_a_missing_drive_are_refused() {
         assert_eq!(code(&output), 2, "{more:?}");
         assert!(said(&output).contains(expected), "{}", err(&output));
     };
-    refused(&["--at", "5 Hz", "--amplitude", "3 N"], "a displacement or an acceleration is wanted");
-    refused(&["--at", "5 Hz", "--amplitude", "0 mm"], "not a positive amplitude");
+    refused(
+        &["--at", "5 Hz", "--amplitude", "3 N"],
+        "a length (m) is expected here; for example \"2 cm\"; an acceleration",
+    );
+    refused(&["--at", "5 Hz", "--amplitude", "0 mm"], "it must be positive");
     refused(&["--at", "5 Hz"], "--amplitude");
     refused(&["--from", "3 rad/s"], "angular frequency");
+    // Whether it is mm or m, or g or N, nobody can tell.
+    refused(&["--at", "5 Hz", "--amplitude", "3"], "`3` has no unit");
+    refused(&["--to", "300"], "`300` has no unit");
     refused(&["--drive", "wall"], "there is only");
     let output = run(&["vibrate", "reference"]);
     assert_eq!(code(&output), 2);

@@ -388,3 +388,9 @@ mod tests {
         assert_eq!(help, None);
     }
 }
+
+/// A positive value, in SI units.
+pub(crate) fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
+    let value = crate::input::argument(name, text, dimension)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
+}

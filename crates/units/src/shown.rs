@@ -7,8 +7,8 @@ use super::{Dimension, format::handy, parse_dimension, si_unit};
 /// Digits by which a unit is chosen.
 const MOST_DIGITS: usize = 7;
 
-/// The SI unit of an energy per volume.
-const ENERGY_DENSITY: &str = "J/m³";
+/// Units with the prefixes of energies: what is lost in a volume is no pressure.
+const AS_ENERGIES: [&str; 4] = ["J/m³", "W", "W/m^2", "W/N^2"];
 
 /// Units in which impacts are read where others would suit as well: SI unit, range of the value, symbol and factor.
 const USUAL: [(&str, Range<f64>, &str, f64); 3] =
@@ -25,10 +25,10 @@ pub struct Unit {
 impl Unit {
     /// The SI unit `si` with the prefix that suits `value`, which is in SI units.
     pub fn suiting(value: f64, si: &str) -> Self {
-        // What is lost in a volume is no pressure.
-        if si == ENERGY_DENSITY {
+        if AS_ENERGIES.contains(&si) {
             let energy = Self::suiting(value, "J");
-            return Self { symbol: energy.symbol + "/m³", ..energy };
+            let prefix = energy.symbol.trim_end_matches('J');
+            return Self { symbol: pretty(&format!("{prefix}{si}")), ..energy };
         }
         if let Some((_, _, symbol, factor)) =
             USUAL.iter().find(|usual| usual.0 == si && usual.1.contains(&value.abs()))
@@ -167,6 +167,8 @@ mod tests {
         assert_eq!(quantity(2.5e5, "J/m³", 3), "250 kJ/m³");
         assert_eq!(quantity(1.5e6, "J/m³", 3), "1.50 MJ/m³");
         assert_eq!(quantity(0.0, "J/m³", 3), "0 J/m³");
+        assert_eq!(quantity(2.5e-5, "W", 3), "25.0 µW");
+        assert_eq!(quantity(9.2e6, "W/m^2", 3), "9.20 MW/m²");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::shown;
 /// Chapters with how many texts and figures they show.
 const CHAPTERS: [(&str, usize, usize); 21] = [
     ("quick-start", 4, 1),
-    ("vibration", 2, 1),
+    ("vibration", 4, 1),
     ("thesis", 1, 4),
     ("sweeps", 8, 3),
     ("gradients", 1, 0),

@@ -3,23 +3,23 @@
 
 use std::borrow::Cow;
 
-use dashpot_dae::Silent;
+use dashpot_dae::{Waveform, frequency::FrequencyResponse};
 use dashpot_network::{
-    Assembly, Connection, Detail, Effect, Network, Start,
-    effects::{Gravity, GravityStart, Separation, Stop},
+    Assembly, Connection, Detail, Effect, Network,
+    effects::{Separation, Stop},
 };
 
 use super::{
-    Drive, DriveKind, Vibration, VibrationError, VibrationWarning,
+    DriveKind, Vibration, VibrationError, VibrationWarning,
     curve::Curve,
-    drive::Driven,
-    error,
     observed::{Found, Observed},
 };
-use crate::{Solution, SolveSettings, solve_assembly};
 
 /// A contact counts as loose at rest where it carries less than this part of the largest force.
 const LOOSE: f64 = 1e-9;
+
+/// A force or deformation at rest is known better than this, relatively, or not at all.
+const LOST: f64 = 1e-6;
 
 /// Why a response holds for small oscillations only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,52 +67,19 @@ pub struct Onset {
     pub amplitude: f64,
 }
 
-/// The network without its separations and stops, and what they limit.
-pub(super) fn closed(
-    network: &Network,
-    duration: f64,
-) -> Result<(Cow<'_, Network>, Vec<Limit>), VibrationError> {
+/// The network without its separations and stops, and these.
+pub(super) fn closed(network: &Network) -> (Cow<'_, Network>, Vec<Opening<'_>>) {
     let effects = network.effects().iter().enumerate();
-    let found: Vec<_> =
-        effects.filter_map(|(at, own)| Some((at, opening(own.as_ref())?))).collect();
-    if found.is_empty() {
-        return Ok((Cow::Borrowed(network), Vec::new()));
+    let (details, openings): (Vec<Detail>, Vec<Opening<'_>>) =
+        effects.filter_map(|(at, own)| Some((Detail::Effect(at), opening(own.as_ref())?))).unzip();
+    if openings.is_empty() {
+        return (Cow::Borrowed(network), openings);
     }
-    let details: Vec<Detail> = found.iter().map(|own| Detail::Effect(own.0)).collect();
-    let linear = network.without(&details);
-    let mut limits = Vec::new();
-    let rest = Rest::of(&linear, duration)?;
-    let solution = rest.report.solution();
-    let whole = network.with_effects()?;
-    for (_, opening) in found {
-        let (Opening::Separation(Separation { element, .. }) | Opening::Stop(Stop { element, .. })) =
-            opening;
-        let named = |connection: &Connection| connection.name == *element;
-        let Some(element) = network.connections().iter().position(named) else { continue };
-        let own = &network.connections()[element];
-        let name = |at: Option<usize>| Some(whole.connections()[at?].name.as_str());
-        let pad = whole.pad(element);
-        let limit = match opening {
-            Opening::Separation(separation) => {
-                let second = &network.node(own.between[1]).name;
-                let at_second = separation.at.as_ref() == Some(second);
-                let Some(name) = pad.and_then(|pad| name(pad.contact)) else { continue };
-                parting(&solution, name, (element, at_second))?
-            }
-            Opening::Stop(own_stop) => {
-                let at = own_stop.at.or(own.thickness);
-                let Some((at, pad)) = at.zip(pad) else { continue };
-                let Some(name) = name(pad.stop) else { continue };
-                stop(&solution, name, (element, at))?
-            }
-        };
-        limits.push(limit);
-    }
-    Ok((Cow::Owned(linear), limits))
+    (Cow::Owned(network.without(&details)), openings)
 }
 
 /// An effect that opens or closes something.
-enum Opening<'n> {
+pub(super) enum Opening<'n> {
     Separation(&'n Separation),
     Stop(&'n Stop),
 }
@@ -120,38 +87,6 @@ enum Opening<'n> {
 fn opening(effect: &dyn Effect) -> Option<Opening<'_>> {
     let stop = || effect.of_kind().map(Opening::Stop);
     effect.of_kind().map(Opening::Separation).or_else(stop)
-}
-
-/// A linear network under its weights, with nothing that moves.
-struct Rest {
-    report: crate::RunReport,
-}
-
-impl Rest {
-    fn of(network: &Network, duration: f64) -> Result<Self, VibrationError> {
-        let assembly = network.compile(duration)?;
-        error::require_linear_system(&assembly)?;
-        let silence = Drive {
-            name: String::new(),
-            kind: DriveKind::Load,
-            node: network.node(network.ground()).name.clone(),
-        };
-        let still = Driven::new(network, &assembly, &silence, duration)?.network;
-        let own = still.effects().iter().enumerate();
-        let own: Vec<_> = own.filter_map(|(at, own)| Some((at, own.gravity()?))).collect();
-        let weights: Vec<Detail> = own.iter().map(|own| Detail::Effect(own.0)).collect();
-        let mut still = still.without(&weights);
-        still.nodes_mut().iter_mut().for_each(|node| node.start = Start::Rest);
-        for (_, acceleration) in own {
-            still.add_effect(Gravity { acceleration, start: GravityStart::Equilibrium });
-        }
-        let settings = SolveSettings { estimate: false, ..SolveSettings::lasting(duration) };
-        let assembly = std::sync::Arc::new(still.compile(duration)?);
-        let report = solve_assembly(&assembly, &[], &settings, &mut Silent);
-        Ok(Self {
-            report: report.map_err(|error| VibrationError::Rest { error: error.to_string() })?,
-        })
-    }
 }
 
 /// The force \[N\] that presses the contact of an element together.
@@ -163,41 +98,9 @@ fn contact_force(assembly: &Assembly, element: usize, at_second: bool) -> Option
     contact.map_or(through, |contact| assembly.connections[contact].force)
 }
 
-fn parting(
-    rest: &Solution<'_>,
-    name: &str,
-    (element, at_second): (usize, bool),
-) -> Result<Limit, VibrationError> {
-    let assembly = rest.assembly();
-    let force = |at: usize| rest.signal(at).value(0.0);
-    let reserve = contact_force(assembly, element, at_second).map_or(0.0, force);
-    let all = assembly.connections.iter().filter_map(|connection| connection.force);
-    let largest = all.map(|at| force(at).abs()).fold(0.0, f64::max);
-    let name = name.to_owned();
-    if reserve > LOOSE * largest {
-        Ok(Limit { kind: LimitKind::Parting, name, reserve, element, at_second })
-    } else {
-        Err(VibrationError::Loose { contact: name })
-    }
-}
-
-fn stop(
-    rest: &Solution<'_>,
-    name: &str,
-    (element, at): (usize, f64),
-) -> Result<Limit, VibrationError> {
-    let own = rest.assembly().connections[element].deformation;
-    let (reserve, name) = (at - rest.signal(own).value(0.0), name.to_owned());
-    if reserve > 0.0 {
-        Ok(Limit { kind: LimitKind::Stop, name, reserve, element, at_second: false })
-    } else {
-        Err(VibrationError::OnStop { stop: name })
-    }
-}
-
 impl Limit {
     /// What swings up to the reserve, over `(iω)^order`.
-    fn observed(&self, vibration: &Vibration, order: u32) -> Option<Observed> {
+    fn observed(&self, vibration: &Vibration, order: i32) -> Option<Observed> {
         let assembly = &vibration.assembly;
         let output = match self.kind {
             LimitKind::Parting => contact_force(assembly, self.element, self.at_second)?,
@@ -208,6 +111,78 @@ impl Limit {
 }
 
 impl Vibration {
+    /// What `openings` of `network`, which are closed here, limit.
+    ///
+    /// The network rests under all that acts for good, which is its response at the frequency 0.
+    pub(super) fn limits_of(
+        &self,
+        network: &Network,
+        openings: &[Opening<'_>],
+    ) -> Result<Vec<Limit>, VibrationError> {
+        if openings.is_empty() {
+            return Ok(Vec::new());
+        }
+        let Assembly { system, connections, .. } = &self.assembly;
+        let is_still = |own: (&Waveform, &f64)| if *own.1 == 0.0 { own.0.value(0.0) } else { 0.0 };
+        let units: Vec<f64> = system.waveforms.iter().zip(&self.units).map(is_still).collect();
+        let acts = units.iter().any(|unit| *unit != 0.0);
+        let still = FrequencyResponse::new(system, &units).and_then(|own| own.at(0.0));
+        if acts && still.is_none() {
+            return Err(VibrationError::Rest);
+        }
+        let still = still.as_ref().filter(|_| acts);
+        let at_rest = |output: usize| still.map(|still| still.amplitude(&[(output, 1.0)]));
+        let forces = connections.iter().filter_map(|connection| connection.force);
+        let size = |output: usize| at_rest(output).map_or(0.0, |own| own.value.norm());
+        let largest = forces.map(size).fold(0.0, f64::max);
+        // Where something drifts, rounding alone may give it a place of rest.
+        let value = |output: usize, size: f64| match at_rest(output) {
+            Some(own) if own.error > LOST * size => Err(VibrationError::Rest),
+            own => Ok(own.map_or(0.0, |own| own.value.re)),
+        };
+        let whole = network.with_effects()?;
+        let mut limits = Vec::new();
+        for opening in openings {
+            let (Opening::Separation(Separation { element, .. })
+            | Opening::Stop(Stop { element, .. })) = opening;
+            let named = |connection: &Connection| connection.name == *element;
+            let Some(element) = network.connections().iter().position(named) else { continue };
+            let own = &network.connections()[element];
+            let name = |at: Option<usize>| Some(whole.connections()[at?].name.clone());
+            let Some(pad) = whole.pad(element) else { continue };
+            match opening {
+                Opening::Separation(separation) => {
+                    let second = &network.node(own.between[1]).name;
+                    let at_second = separation.at.as_ref() == Some(second);
+                    let Some(name) = name(pad.contact) else { continue };
+                    let force = contact_force(&self.assembly, element, at_second);
+                    let reserve = force.map_or(Ok(0.0), |force| value(force, largest))?;
+                    if reserve <= LOOSE * largest {
+                        return Err(VibrationError::Loose { contact: name });
+                    }
+                    limits.push(Limit {
+                        kind: LimitKind::Parting,
+                        name,
+                        reserve,
+                        element,
+                        at_second,
+                    });
+                }
+                Opening::Stop(stop) => {
+                    let at = stop.at.or(own.thickness).zip(name(pad.stop));
+                    let Some((at, name)) = at else { continue };
+                    let reserve = at - value(connections[element].deformation, at)?;
+                    if reserve <= 0.0 {
+                        return Err(VibrationError::OnStop { stop: name });
+                    }
+                    let kind = LimitKind::Stop;
+                    limits.push(Limit { kind, name, reserve, element, at_second: false });
+                }
+            }
+        }
+        Ok(limits)
+    }
+
     /// The contacts and stops beyond which the response does not hold.
     pub fn limits(&self) -> &[Limit] {
         &self.limits
@@ -236,9 +211,9 @@ impl Vibration {
         let tau = std::f64::consts::TAU;
         let order = if self.drive.kind == DriveKind::Motion { 2 } else { 0 };
         let onset = |limit: &Limit| {
-            let observed = limit.observed(self, order)?;
+            let response = limit.observed(self, order)?.into();
             let [low, high] = range.map(|own| tau * own);
-            let curve = Curve::new(self, &observed, poles, [low, high]);
+            let curve = Curve::new(self, &response, poles, [low, high]);
             let extrema = curve.extrema(low, high, poles);
             let first =
                 extrema.iter().max_by(|a, b| a.probe.level.total_cmp(&b.probe.level))?.probe;

@@ -1,50 +1,57 @@
 //! A response over frequency, near its poles as well.
 
-use std::f64::consts::TAU;
+use std::{cell::OnceCell, f64::consts::TAU};
 
 use nalgebra::Complex;
 
 use super::{
     Swing, Vibration,
-    observed::{Found, Observed},
+    observed::{Found, Observed, Response},
 };
 
-/// The response of what is observed as a function of the angular frequency.
+/// A response as a function of the angular frequency.
 pub(super) struct Curve<'a> {
     vibration: &'a Vibration,
-    observed: &'a Observed,
-    near_poles: Vec<NearPole>,
+    response: &'a Response,
+    /// What is near the poles, of each part of the response.
+    near_poles: Vec<Vec<NearPole>>,
 }
 
 impl<'a> Curve<'a> {
     /// The response over a range of angular frequencies \[rad/s\] of a network with these `poles`.
     pub(super) fn new(
         vibration: &'a Vibration,
-        observed: &'a Observed,
+        response: &'a Response,
         poles: &[(f64, f64)],
         range: [f64; 2],
     ) -> Self {
-        let near_poles = NearPole::all(vibration, observed, poles, range);
-        Self { vibration, observed, near_poles }
+        let near = |part: &Observed| NearPole::all(vibration, part, poles, range);
+        Self { vibration, response, near_poles: response.parts.iter().map(near).collect() }
     }
 
-    /// What is observed at the angular frequency `omega` \[rad/s\]; `None` where it cannot be told.
+    /// The response at the angular frequency `omega` \[rad/s\]; `None` where it cannot be told.
     pub(super) fn at(&self, omega: f64) -> Option<Found> {
-        let near = || {
-            self.near_poles.iter().filter_map(|near_pole| Some((near_pole, near_pole.at(omega)?)))
-        };
-        // As it stands it is nothing but rounding so near to a pole.
-        if let Some((_, found)) = near().find(|own| own.0.has_pole()) {
-            return Some(found);
-        }
         let rate = Complex::new(0.0, omega);
-        let direct = self.vibration.at(rate).and_then(|harmonic| self.observed.at(&harmonic, rate));
-        let all = direct.into_iter().chain(near().map(|own| own.1));
-        all.min_by(|a, b| a.error.total_cmp(&b.error))
+        let harmonic = OnceCell::new();
+        let part = |(part, near_poles): (&Observed, &Vec<NearPole>)| {
+            let near = || {
+                near_poles.iter().filter_map(|near_pole| Some((near_pole, near_pole.at(omega)?)))
+            };
+            // As it stands it is nothing but rounding so near to a pole.
+            if let Some((_, found)) = near().find(|own| own.0.has_pole()) {
+                return Some(found);
+            }
+            let harmonic = harmonic.get_or_init(|| self.vibration.at(rate)).as_ref();
+            let direct = harmonic.and_then(|harmonic| part.at(harmonic, rate));
+            let all = direct.into_iter().chain(near().map(|own| own.1));
+            all.min_by(|a, b| a.error.total_cmp(&b.error))
+        };
+        let parts = self.response.parts.iter().zip(&self.near_poles).map(part);
+        self.response.form.of(&parts.collect::<Option<Vec<Found>>>()?)
     }
 
     pub(super) fn swing(&self, omega: f64) -> Option<Swing> {
-        self.at(omega).map(|found| Swing::of(found.value, found.error))
+        self.at(omega).map(|found| self.response.form.swing(&found))
     }
 }
 

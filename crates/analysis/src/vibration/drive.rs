@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use dashpot_dae::{Piece, Waveform};
-use dashpot_network::{Assembly, Network, Node, NodeId, Support};
+use dashpot_network::{Assembly, Network, NodeId, Support};
 
 use super::VibrationError;
 
@@ -84,69 +84,38 @@ pub(super) fn chosen(network: &Network, name: Option<&str>) -> Result<Drive, Vib
     }
 }
 
-/// A network in which nothing but the drive acts: a sine of the amplitude 1 N or 1 m.
-pub(super) struct Driven {
-    pub(super) network: Network,
-    /// The node on which the drive acts.
-    pub(super) node: NodeId,
-}
-
-impl Driven {
-    /// The network with `drive` alone; `assembly` is what it compiles to as it is.
-    pub(super) fn new(
-        network: &Network,
-        assembly: &Assembly,
-        drive: &Drive,
-        duration: f64,
-    ) -> Result<Self, VibrationError> {
-        let wave = Piece { sine: 1.0, omega: TAU / duration, ..Piece::default() };
-        let invalid = VibrationError::InvalidSetting {
-            setting: "duration",
-            range: "positive and finite",
-            value: duration,
-        };
-        let sine = Waveform::new(vec![wave]).filter(|_| duration > 0.0).ok_or(invalid)?;
-        let known = || drives(network).into_iter().map(|drive| drive.name).collect();
-        let unknown = || VibrationError::UnknownDrive { name: drive.name.clone(), known: known() };
-        let node = network.node_named(&drive.node).ok_or_else(unknown)?;
+/// The network in which nothing but `drive` acts, a sine of the amplitude 1 N or 1 m; `assembly` is what it compiles
+/// to as it is.
+pub(super) fn driven(
+    network: &Network,
+    assembly: &Assembly,
+    drive: &Drive,
+    node: NodeId,
+    duration: f64,
+) -> Result<Network, VibrationError> {
+    let wave = Piece { sine: 1.0, omega: TAU / duration, ..Piece::default() };
+    let invalid = VibrationError::InvalidSetting {
+        setting: "duration",
+        range: "positive and finite",
+        value: duration,
+    };
+    let sine = Waveform::new(vec![wave]).filter(|_| duration > 0.0).ok_or(invalid)?;
+    let body = |id: NodeId| assembly.nodes[id.index()].body;
+    let mut driven = network.clone();
+    for (id, own) in network.nodes() {
         // Nodes that are rigidly linked move as one.
-        let body = assembly.nodes[node.index()].body;
-        let is_moved = |id: NodeId| {
-            drive.kind == DriveKind::Motion
-                && assembly.nodes[id.index()].body == body
-                && network.node(id).support != Support::Free
-        };
-        let mut driven = network.clone();
-        let ground = network.ground();
-        for (node, (id, _)) in driven.nodes_mut().iter_mut().zip(network.nodes().skip(1)) {
-            if is_moved(id) {
-                node.support = Support::Prescribed(sine.clone());
-            } else if let Support::Prescribed(motion) = &mut node.support {
-                *motion = Waveform::constant(0.0);
+        let is_moved = drive.kind == DriveKind::Motion && body(id) == body(node);
+        match &own.support {
+            Support::Free => {}
+            _ if is_moved => driven.node_mut(id).support = Support::Prescribed(sine.clone()),
+            Support::Fixed => {}
+            Support::Prescribed(_) => {
+                driven.node_mut(id).support = Support::Prescribed(Waveform::constant(0.0));
             }
         }
-        // The ground itself cannot move: another node takes its place.
-        let moved_ground = is_moved(ground)
-            .then(|| driven.add_node(Node::prescribed(unused_name(network), sine.clone())));
-        let place = |id: NodeId| match moved_ground {
-            Some(moved) if id == ground => moved,
-            _ => id,
-        };
-        for connection in driven.connections_mut() {
-            connection.between = connection.between.map(place);
-        }
-        let loads = driven.loads_mut();
-        loads.retain(|load| drive.kind == DriveKind::Load && load.name == drive.name);
-        loads.iter_mut().for_each(|load| load.force = sine.clone());
-        Ok(Self { network: driven, node: place(node) })
     }
-}
-
-/// A name that no node has.
-fn unused_name(network: &Network) -> String {
-    let mut name = "moved ground".to_owned();
-    while network.node_named(&name).is_some() {
-        name.push('\'');
-    }
-    name
+    let loads = driven.loads_mut();
+    loads.retain(|load| drive.kind == DriveKind::Load && load.name == drive.name);
+    loads.iter_mut().for_each(|load| load.force = sine.clone());
+    Ok(driven)
 }

@@ -2,7 +2,7 @@
 
 use std::{f64::consts::TAU, fmt};
 
-use dashpot_dae::frequency::{FrequencyError, MOST_UNKNOWNS};
+use dashpot_dae::frequency::MOST_UNKNOWNS;
 use dashpot_network::{Assembly, Network, NetworkErrors, elements::Law, first_nonlinear};
 use serde::{Serializer, ser::SerializeMap};
 use thiserror::Error;
@@ -43,18 +43,15 @@ pub enum VibrationError {
         /// The stop.
         stop: String,
     },
-    /// It cannot be told how the network rests under its weights.
-    #[error("how it rests under its weights cannot be told: {error}")]
-    Rest {
-        /// Why, in words.
-        error: String,
-    },
+    /// It does not come to rest under its weights.
+    #[error(
+        "it does not come to rest under its weights, which press a contact together or towards a \
+         stop: let springs carry them"
+    )]
+    Rest,
     /// It was asked to end.
     #[error("it was asked to end")]
     Cancelled,
-    /// The equations cannot be solved over frequency.
-    #[error(transparent)]
-    Frequency(#[from] FrequencyError),
     /// It has not been said what shakes the network.
     #[error(
         "{} drives the network; {}",

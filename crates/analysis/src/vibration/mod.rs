@@ -1,5 +1,6 @@
 //! Steady periodic response: transmissibility over frequency, resonances, and the peaks of the
-//! steady oscillation at one frequency.
+//! steady oscillation at one frequency. Other [quantities](QUANTITIES) over frequency are those of elements, and driving
+//! points: dynamic stiffness, impedance and apparent mass.
 //!
 //! One load or one motion of a network is a sine, all else that drives it is silent, and transients
 //! have died away. Then every quantity is a sine of the same frequency, and its complex amplitude
@@ -35,6 +36,7 @@ mod drive;
 mod error;
 mod modes;
 mod observed;
+mod quantities;
 mod resonance;
 mod steady;
 mod sweep;
@@ -46,12 +48,12 @@ use dashpot_dae::frequency::{FrequencyResponse, Harmonic};
 use dashpot_network::{Assembly, Network, NodeId};
 use nalgebra::Complex;
 
-use self::drive::Driven;
 pub use self::{
     contacts::{Limit, LimitKind, Onset},
     drive::{Drive, DriveKind, drives},
     error::{VibrationError, VibrationWarning},
     modes::{Displacement, Mode},
+    quantities::{QUANTITIES, Quantity},
     resonance::Resonance,
     steady::{Steady, SteadyElement, SteadyNode, SteadySupport},
     sweep::{Sweep, SweepSettings, Transmission},
@@ -81,8 +83,8 @@ pub struct Vibration {
     network: Network,
     assembly: Assembly,
     node: NodeId,
-    waveform: usize,
-    unit: f64,
+    /// The amplitude of each waveform of the system.
+    units: Vec<f64>,
     limits: Vec<Limit>,
 }
 
@@ -103,29 +105,31 @@ impl Vibration {
     ) -> Result<Self, VibrationError> {
         error::require_linear(network)?;
         let drive = drive::chosen(network, drive)?;
-        let (network, limits) = contacts::closed(network, duration)?;
-        let network = &*network;
-        let still = network.compile(duration)?;
+        let (linear, openings) = contacts::closed(network);
+        let still = linear.compile(duration)?;
         error::require_linear_system(&still)?;
-        let driven = Driven::new(network, &still, &drive, duration)?;
-        let assembly = driven.network.compile(duration)?;
+        let known = || drives(&linear).into_iter().map(|drive| drive.name).collect();
+        let unknown = || VibrationError::UnknownDrive { name: drive.name.clone(), known: known() };
+        let node = linear.node_named(&drive.node).ok_or_else(unknown)?;
+        let driven = drive::driven(&linear, &still, &drive, node, duration)?;
+        let assembly = driven.compile(duration)?;
         error::require_linear_system(&assembly)?;
-        let node = driven.node;
-        if drive.kind == DriveKind::Load {
-            let body = assembly.nodes[node.index()].body;
-            if assembly.nodes.iter().any(|node| node.body == body && !node.free) {
-                let (load, node) = (drive.name, drive.node);
-                return Err(VibrationError::LoadOnSupport { load, node });
-            }
-        }
         // Motions and loads come before what effects bring, and one of them only is a sine.
-        let sine = |own: &dashpot_dae::Waveform| own.pieces()[0].sine;
         let waveforms = &assembly.system.waveforms;
-        let waveform =
-            waveforms.iter().position(|waveform| sine(waveform) != 0.0).unwrap_or(waveforms.len());
-        let unit = waveforms.get(waveform).map_or(0.0, sine);
-        FrequencyResponse::new(&assembly.system, waveform, unit)?;
-        Ok(Self { drive, network: driven.network, assembly, node, waveform, unit, limits })
+        let mut units = vec![0.0; waveforms.len()];
+        let mut sines = waveforms.iter().map(|own| own.pieces()[0].sine).enumerate();
+        let (at, sine) = sines
+            .find(|own| own.1 != 0.0)
+            .ok_or(VibrationError::NothingToSee { sought: "part" })?;
+        units[at] = sine;
+        let limits = Vec::new();
+        let mut own = Self { drive, network: driven, assembly, node, units, limits };
+        if own.drive.kind == DriveKind::Load && own.is_held(node.index()) {
+            let Drive { name: load, node, .. } = own.drive;
+            return Err(VibrationError::LoadOnSupport { load, node });
+        }
+        own.limits = own.limits_of(network, &openings)?;
+        Ok(own)
     }
 
     /// What shakes the network.
@@ -135,7 +139,7 @@ impl Vibration {
 
     /// The answer to a drive of one unit that goes as `e^{st}`, with the complex `rate` s \[1/s\].
     fn at(&self, rate: Complex<f64>) -> Option<Harmonic<'_>> {
-        FrequencyResponse::new(&self.assembly.system, self.waveform, self.unit).ok()?.at_rate(rate)
+        FrequencyResponse::new(&self.assembly.system, &self.units)?.at_rate(rate)
     }
 
     /// Whether a node, by its number, is moved or held, alone or with others.

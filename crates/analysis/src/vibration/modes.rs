@@ -66,7 +66,7 @@ impl Vibration {
     }
 
     /// The displacements of the masses that can move, one of each body.
-    fn masses(&self) -> Vec<Observed> {
+    pub(super) fn masses(&self) -> Vec<Observed> {
         let nodes = &self.assembly.nodes;
         let is_first = |at: usize| {
             let alike =
@@ -75,7 +75,7 @@ impl Vibration {
         };
         let is_seen = |at: usize| nodes[at].mass > 0.0 && !self.is_held(at) && is_first(at);
         let seen = self.ids().filter(|id| is_seen(id.index()));
-        seen.map(|id| Observed::displacement(&self.assembly, id)).collect()
+        seen.map(|id| Observed::motion(&self.assembly, id, 0)).collect()
     }
 
     fn shape(&self, pole: Complex<f64>, masses: &[Observed]) -> Option<Vec<Displacement>> {
@@ -93,7 +93,7 @@ impl Vibration {
             |((mass, near), farther): ((&Observed, &Complex<f64>), &Complex<f64>)| {
                 let (value, again) = (near / one, farther / other);
                 Displacement {
-                    node: self.name_of(&mass.name),
+                    node: mass.name.clone(),
                     swing: Swing::of(value, (value - again).norm()),
                 }
             };

@@ -58,6 +58,8 @@ pub struct SteadyElement {
     pub deformation: Swing,
     /// Force \[N\], positive in compression; `None` where it is undetermined.
     pub force: Option<Swing>,
+    /// Mean power that its dashpots dissipate \[W\].
+    pub power: f64,
     /// Its thickness \[m\], where it is a pad.
     #[serde(skip)]
     pub thickness: Option<f64>,
@@ -97,7 +99,7 @@ impl Vibration {
                 return direct;
             }
             let poles = poles.get_or_init(|| self.poles().unwrap_or_default());
-            Curve::new(self, observed, poles, [omega, omega]).at(omega)
+            Curve::new(self, &observed.clone().into(), poles, [omega, omega]).at(omega)
         };
         let read = |observed: &Observed| {
             let found = found(observed)?;
@@ -112,11 +114,11 @@ impl Vibration {
             if self.is_held(id.index()) && !is_moved {
                 continue;
             }
-            let observed = Observed::displacement(&self.assembly, id);
+            let observed = Observed::motion(&self.assembly, id, 0);
             let (value, error) = read(&observed).ok_or_else(unbounded)?;
             let twice = Complex::new(0.0, omega).powu(2);
             nodes.push(SteadyNode {
-                name: self.name_of(&observed.name),
+                name: observed.name,
                 displacement: Swing::of(value, error),
                 acceleration: Swing::of(value * twice, error * omega * omega),
             });
@@ -125,10 +127,13 @@ impl Vibration {
         for (at, own) in self.assembly.connections.iter().enumerate() {
             let deformation = Observed::deformation(&self.assembly, at);
             let force = Observed::force(&self.assembly, at);
+            let dashpots = Observed::dashpots(&self.assembly, at);
+            let roots = dashpots.iter().map(|own| Some(read(own)?.0.norm_sqr()));
             elements.push(SteadyElement {
                 name: own.name.clone(),
                 deformation: swing(&deformation).ok_or_else(unbounded)?,
                 force: force.as_ref().and_then(swing),
+                power: roots.sum::<Option<f64>>().ok_or_else(unbounded)?,
                 thickness: own.thickness,
             });
         }
@@ -136,7 +141,7 @@ impl Vibration {
         for (body, name) in supports(&self.assembly) {
             let force = swing(&Observed::support(&self.assembly, body, &name));
             let force = force.ok_or_else(unbounded)?;
-            held.push(SteadySupport { name: self.name_of(&name), force });
+            held.push(SteadySupport { name, force });
         }
         Ok(Steady {
             drive: self.drive.clone(),
@@ -153,14 +158,8 @@ impl Vibration {
 
     /// The mean power of the drive \[W\] at one unit of its amplitude: `½ Re(F v*)`.
     fn power(&self, read: impl Fn(&Observed) -> Option<Found>) -> Option<f64> {
-        let name = match self.drive.kind {
-            DriveKind::Load => self.drive.name.clone(),
-            DriveKind::Motion => {
-                format!("motion of {}", self.assembly.nodes[self.node.index()].name)
-            }
-        };
-        let own = self.assembly.drives.iter().find(|drive| drive.name == name)?;
-        let value = |output: usize| Some(read(&Observed::output(&name, output, 0))?.value);
+        let own = self.driving()?;
+        let value = |output: usize| Some(read(&Observed::output("", output, 0))?.value);
         let (force, velocity) = (value(own.force)?, value(own.velocity?)?);
         Some(0.5 * (force * velocity.conj()).re)
     }

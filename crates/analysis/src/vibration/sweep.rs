@@ -3,10 +3,8 @@
 use std::{f64::consts::TAU, ops::ControlFlow};
 
 use super::{
-    Drive, DriveKind, Mode, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
-    curve::Curve,
-    observed::{Observed, selected, supports},
-    resonance::resonances,
+    Drive, Mode, Onset, Resonance, Swing, Vibration, VibrationError, VibrationWarning,
+    curve::Curve, observed::Form, quantities::Receiver, resonance::resonances,
 };
 use crate::sweep::Watch;
 use dashpot_dae::frequency::poles;
@@ -21,8 +19,8 @@ const USUAL: [f64; 2] = [1.0, 200.0];
 /// Poles that are smaller than this part of the largest one are what rounding makes of zero.
 const NOISE: f64 = 1e-7;
 /// Frequencies below all others, relatively, from which the limit at rest is taken where the
-/// equations have none at rest itself.
-const SLOW: [f64; 2] = [1e-6, 1e-9];
+/// equations have none at rest itself; and those where it is lost in rounding there, as that of a body that nothing holds.
+const SLOW: [[f64; 2]; 2] = [[1e-6, 1e-9], [3e-4, 1e-4]];
 /// A limit is known better than this, relatively, or not at all.
 const KNOWN: f64 = 1e-6;
 
@@ -35,7 +33,8 @@ pub struct SweepSettings {
     pub to: Option<f64>,
     /// How many frequencies are listed, at equal ratios, 2 or more.
     pub points: usize,
-    /// The nodes that are looked at, or the supports where a load drives; empty for every mass, or every support.
+    /// What is looked at: nodes, or supports and elements where a load drives, or a [quantity](super::QUANTITIES) of
+    /// something, as `padding.force`; empty for every mass, or every support.
     pub of: Vec<String>,
 }
 
@@ -52,7 +51,7 @@ pub struct Sweep {
     pub drive: Drive,
     /// The frequencies \[Hz\].
     pub frequencies: Vec<f64>,
-    /// What arrives at each node or support.
+    /// The response of each node or support, or of what else is asked for.
     pub transmissions: Vec<Transmission>,
     /// Where each contact parts and each stop is reached first, at its smallest drive.
     pub onsets: Vec<Onset>,
@@ -62,18 +61,25 @@ pub struct Sweep {
     pub notes: Vec<VibrationWarning>,
 }
 
-/// What arrives at a node or support: `X/X_drive` of displacements, velocities or accelerations
-/// where a motion drives; `F/F_drive`, the force on the support over the load, where a load does.
+/// A response over frequency: what arrives at a node or support (`X/X_drive` of displacements, velocities or
+/// accelerations where a motion drives; `F/F_drive`, the force on the support over the load, where a load does), or
+/// another [quantity](super::QUANTITIES).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
-    /// The node, or the support.
+    /// The node, or the support; or what was asked for, as `padding.force`.
     pub name: String,
-    /// The ratio at each frequency \[1\]; `None` where it cannot be told, at an undamped resonance.
+    /// The word of its [quantity](super::QUANTITIES).
+    pub quantity: &'static str,
+    /// SI unit of the ratio.
+    pub unit: &'static str,
+    /// Whether it has a phase; a mean power has none.
+    pub has_phase: bool,
+    /// The ratio at each frequency, in its unit; `None` where it cannot be told, at an undamped resonance.
     pub swings: Vec<Option<Swing>>,
     /// The peaks within the range, by rising frequency. They are those of the response itself, not
     /// of its values at the frequencies of the list.
     pub resonances: Vec<Resonance>,
-    /// The limit at slow oscillation \[1\]; `None` where there is none.
+    /// The limit at slow oscillation; `None` where there is none.
     pub at_rest: Option<Swing>,
 }
 
@@ -87,7 +93,7 @@ impl Transmission {
 }
 
 impl Vibration {
-    /// What arrives at the masses, or at the supports, over a range of frequencies.
+    /// What arrives at the masses or at the supports, or what else is asked for, over a range of frequencies.
     ///
     /// # Errors
     ///
@@ -96,7 +102,7 @@ impl Vibration {
         self.sweep_watched(settings, &mut |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same; before each mass or support `watch` is told how many of them are done, and may end it.
+    /// The same; before each response `watch` is told how many of them are done, and may end it.
     ///
     /// # Errors
     ///
@@ -120,12 +126,15 @@ impl Vibration {
             drive: self.drive.clone(),
         }));
         let slowest = poles.iter().map(|pole| pole.0.hypot(pole.1)).fold(TAU * range[0], f64::min);
-        let transmission = |observed: &Observed| {
+        let transmission = |receiver: &Receiver| {
             let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];
-            let curve = Curve::new(self, observed, &poles, [low, high]);
+            let curve = Curve::new(self, &receiver.response, &poles, [low, high]);
             let extrema = curve.extrema(low, high, &poles);
             Transmission {
-                name: self.name_of(&observed.name),
+                name: receiver.name.clone(),
+                quantity: receiver.quantity.word,
+                unit: receiver.quantity.unit(self.drive.kind),
+                has_phase: receiver.response.form != Form::Power,
                 swings: frequencies
                     .iter()
                     .map(|frequency| curve.swing(TAU * frequency).filter(Swing::is_known))
@@ -144,36 +153,6 @@ impl Vibration {
         }
         let drive = self.drive.clone();
         Ok(Sweep { drive, frequencies, transmissions, onsets, modes: self.modes(), notes })
-    }
-
-    /// What is looked at: masses, or supports.
-    fn receivers(&self, of: &[String]) -> Result<Vec<Observed>, VibrationError> {
-        let nodes = &self.assembly.nodes;
-        let (all, sought, missing) = match self.drive.kind {
-            DriveKind::Load => {
-                let all = supports(&self.assembly).into_iter();
-                let all = all.map(|own| Observed::support(&self.assembly, own.0, &own.1));
-                (all.collect::<Vec<_>>(), "support", "support")
-            }
-            DriveKind::Motion => {
-                let is_seen = |at: usize| {
-                    let is_first = || {
-                        let alike = |other: usize| {
-                            nodes[other].body == nodes[at].body && nodes[other].mass > 0.0
-                        };
-                        !(0..at).any(alike)
-                    };
-                    !self.is_held(at) && (!of.is_empty() || nodes[at].mass > 0.0 && is_first())
-                };
-                let seen = self.ids().filter(|id| is_seen(id.index()));
-                let all = seen.map(|id| Observed::displacement(&self.assembly, id));
-                (all.collect(), "node that can move", "mass that can move")
-            }
-        };
-        if all.is_empty() {
-            return Err(VibrationError::NothingToSee { sought: missing });
-        }
-        selected(all, of, sought)
     }
 
     /// The natural frequencies and dampings, or the rates of decay, of the network \[rad/s\].
@@ -199,15 +178,19 @@ impl Curve<'_> {
         if let Some(found) = self.swing(0.0).filter(is_good) {
             return Some(found);
         }
-        let [early, late] = SLOW.map(|share| self.swing(share * slowest));
-        let (early, late) = (early?, late?);
-        let decades = (SLOW[0] / SLOW[1]).log10();
-        let power = (early.amplitude / late.amplitude).log10() / decades;
-        if early.amplitude == 0.0 || power > 0.5 {
-            return Some(Swing { amplitude: 0.0, phase: 0.0, error: late.amplitude });
-        }
-        let error = late.error + (early.amplitude - late.amplitude).abs();
-        (error <= KNOWN * late.amplitude).then_some(Swing { error, ..late })
+        let slow = |shares: [f64; 2]| {
+            let [early, late] = shares.map(|share| self.swing(share * slowest));
+            let (early, late) = (early?, late?);
+            // What is lost in rounding is not zero.
+            let fall = early.amplitude / (late.amplitude + late.error);
+            let power = fall.ln() / (shares[0] / shares[1]).ln();
+            if early.amplitude == 0.0 || power > 0.5 {
+                return Some(Swing { amplitude: 0.0, phase: 0.0, error: late.amplitude });
+            }
+            let error = late.error + (early.amplitude - late.amplitude).abs();
+            (error <= KNOWN * late.amplitude).then_some(Swing { error, ..late })
+        };
+        SLOW.into_iter().find_map(slow)
     }
 }
 
@@ -261,11 +244,5 @@ impl Vibration {
     /// All nodes of what was compiled.
     pub(super) fn ids(&self) -> impl Iterator<Item = NodeId> + '_ {
         self.network.nodes().map(|node| node.0)
-    }
-
-    /// The name that the reader knows: the ground is another node where it moves.
-    pub(super) fn name_of(&self, name: &str) -> String {
-        let moved = &self.assembly.nodes[self.node.index()].name;
-        if name == moved { self.drive.node.clone() } else { name.to_owned() }
     }
 }

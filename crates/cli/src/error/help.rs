@@ -144,6 +144,9 @@ fn vibration_help(error: &VibrationError) -> Option<&'static str> {
         VibrationError::NoDrive { .. } => {
             "hold a node with `fixed = true`, or put a load on one under [loads]"
         }
+        VibrationError::UnknownNode { .. } => {
+            "`--of` takes a name, or a quantity behind it as in `padding.force`; `dashpot vibrate --help` lists them"
+        }
         VibrationError::Loose { .. } => {
             "gravity presses parts together, `[effects]` with `gravity = { value = \"1 g0\" }`; or leave out the \
              separation: then it pulls as it pushes"

@@ -132,9 +132,6 @@ pub(crate) enum CliError {
     /// A scene that cannot be shaken.
     #[error(transparent)]
     Vibration(#[from] VibrationError),
-    /// An amplitude that does not suit the drive.
-    #[error("`--amplitude` of `{drive}`: {reason}")]
-    WrongAmplitude { drive: String, reason: String },
     /// Values of a parameter that cannot be read.
     #[error("`--vary`: {0}")]
     Variation(#[from] VariationFault),

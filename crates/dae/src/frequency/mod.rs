@@ -12,7 +12,6 @@ mod factors;
 
 use dashpot_numerics::decompositions::eigenvalues;
 use nalgebra::{Complex, DMatrix};
-use thiserror::Error;
 
 use self::factors::{Entries, Factors};
 use crate::{System, UnknownKind};
@@ -22,50 +21,18 @@ const REFINEMENTS: usize = 2;
 /// So many roundings of each coefficient are allowed for in an error.
 const ROUNDINGS: f64 = 4.0;
 
-/// Why a system has no frequency response.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum FrequencyError {
-    /// Its answer to a sine is not a sine.
-    #[error("the system has {terms} terms that are not linear: it does not answer with a sine")]
-    NotLinear {
-        /// How many.
-        terms: usize,
-    },
-    /// There is no such waveform.
-    #[error("there is no waveform {waveform}; there are {count}")]
-    NoWaveform {
-        /// What was asked for.
-        waveform: usize,
-        /// How many there are.
-        count: usize,
-    },
-}
-
-/// A system whose waveforms are all zero but one, which is a sine of unit amplitude.
+/// A system whose waveforms are sines in phase.
 #[derive(Debug, Clone, Copy)]
 pub struct FrequencyResponse<'s> {
     system: &'s System,
-    waveform: usize,
-    unit: f64,
+    units: &'s [f64],
 }
 
 impl<'s> FrequencyResponse<'s> {
-    /// The response to the waveform of this number, with an amplitude of `unit` in the system's
-    /// own, dimensionless values.
-    ///
-    /// # Errors
-    ///
-    /// [`FrequencyError`] for a system that is not linear, and a waveform that it does not have.
-    pub fn new(system: &'s System, waveform: usize, unit: f64) -> Result<Self, FrequencyError> {
-        if !system.is_linear() {
-            return Err(FrequencyError::NotLinear { terms: system.terms.len() });
-        }
-        let count = system.waveforms.len();
-        if waveform >= count {
-            return Err(FrequencyError::NoWaveform { waveform, count });
-        }
-        Ok(Self { system, waveform, unit })
+    /// The response to all waveforms at once, with an amplitude for each in the system's own, dimensionless values; those
+    /// beyond the end of `units` are zero. `None` for a system that is not linear: it does not answer with sines.
+    pub fn new(system: &'s System, units: &'s [f64]) -> Option<Self> {
+        system.is_linear().then_some(Self { system, units })
     }
 
     /// The steady oscillation with the angular frequency `omega` \[rad/s\], ≥ 0; 0 is rest under a constant drive.
@@ -84,8 +51,7 @@ impl<'s> FrequencyResponse<'s> {
         let s = rate * system.time_scale;
         let (mut inputs, mut input_slopes) = (Vec::new(), Vec::new());
         for input in &system.inputs {
-            let is_driven = input.waveform == self.waveform;
-            let unit = if is_driven { self.unit } else { 0.0 };
+            let unit = self.units.get(input.waveform).copied().unwrap_or(0.0);
             inputs.push(s.powu(input.derivative) * unit);
             let order = input.derivative;
             let power = s.powu(order.saturating_sub(1));

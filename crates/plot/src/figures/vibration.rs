@@ -12,36 +12,44 @@ const TURN: f64 = 180.0;
 pub struct VibrationSeries {
     /// Heading, as in `Transmissibility from floor`.
     pub title: String,
-    /// One curve for each node or support.
+    /// What is shown, as `transmissibility`.
+    pub quantity: String,
+    /// Unit of the ratios without prefix; empty for none.
+    pub unit: String,
+    /// One curve for each node, support or element.
     pub curves: Vec<VibrationCurve>,
 }
 
-/// The response of one node or support.
+/// The response of one node, support or element.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct VibrationCurve {
     /// Name.
     pub name: String,
     /// Frequencies \[Hz\], ascending.
     pub frequency: Vec<f64>,
-    /// Ratio to the drive \[1\] at each frequency; what is not finite is a gap.
+    /// Ratio to the drive at each frequency; what is not finite is a gap.
     pub ratio: Vec<f64>,
     /// Phase \[°\] at each frequency, from −180 to 180.
     pub phase: Vec<f64>,
-    /// Peaks: frequency \[Hz\], ratio \[1\], and text.
+    /// Peaks: frequency \[Hz\], ratio, and text.
     pub peaks: Vec<(f64, f64, String)>,
 }
 
 impl VibrationSeries {
-    /// The ratio over frequency, both logarithmic, with a line at 1: above it the drive is amplified.
+    /// The ratio over frequency, both logarithmic; where it has no unit with a line at 1: above it the drive is amplified.
     pub fn ratio_chart(&self) -> Chart {
         let marker =
             |(x, y, label): &(f64, f64, String)| Marker { x: *x, y: *y, label: label.clone() };
+        let line = self
+            .unit
+            .is_empty()
+            .then(|| ReferenceLine::new(Direction::Horizontal, 1.0, "as driven"));
         Chart {
-            y_label: "transmissibility".into(),
-            y_scale: Scale::logarithmic(""),
+            y_label: self.quantity.clone(),
+            y_scale: Scale::logarithmic(&self.unit),
             series: self.series(|own| own.ratio.clone()),
             markers: self.shown().flat_map(|own| &own.peaks).map(marker).collect(),
-            lines: vec![ReferenceLine::new(Direction::Horizontal, 1.0, "as driven")],
+            lines: line.into_iter().collect(),
             ..self.frame()
         }
     }
@@ -110,7 +118,12 @@ mod tests {
             phase: vec![0.0, -90.0, 179.0],
             peaks: vec![(10.0, 5.0, "5 at 10 Hz".into())],
         };
-        VibrationSeries { title: "Transmissibility from floor".into(), curves: vec![curve] }
+        VibrationSeries {
+            title: "Transmissibility from floor".into(),
+            quantity: "transmissibility".into(),
+            unit: String::new(),
+            curves: vec![curve],
+        }
     }
 
     #[test]
@@ -120,6 +133,13 @@ mod tests {
         assert_eq!(chart.series[0].points, [(1.0, 1.0), (10.0, 5.0), (100.0, 0.01)]);
         let svg = chart.svg().unwrap();
         assert!(svg.contains("5 at 10 Hz") && svg.contains("transmissibility"));
+    }
+
+    #[test]
+    fn ratio_with_a_unit_has_no_line_at_one() {
+        let of = |unit: &str| VibrationSeries { unit: unit.into(), ..series() }.ratio_chart();
+        assert_eq!((of("").lines.len(), of("kg").lines.len()), (1, 0));
+        assert!(of("kg").svg().unwrap().contains("transmissibility (kg)"));
     }
 
     #[test]

@@ -137,7 +137,8 @@ fn shaken(
     let force = assembly.connections.first().and_then(|connection| connection.force);
     let force = force.ok_or(Obstacle::Undetermined)?;
     let unit = assembly.system.waveforms.first().map_or(0.0, |own| own.pieces()[0].sine);
-    let response = FrequencyResponse::new(&assembly.system, 0, unit).ok();
+    let units = [unit];
+    let response = FrequencyResponse::new(&assembly.system, &units);
     let at =
         |frequency: &f64| Some(response.as_ref()?.at(TAU * frequency)?.amplitude(&[(force, 1.0)]));
     Ok(frequencies.iter().map(at).collect())

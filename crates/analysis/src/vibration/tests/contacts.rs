@@ -183,3 +183,14 @@ fn a_run_in_time_parts_above_the_onset_and_not_below() {
         assert_eq!(count > 0, parts, "{part}: {count} switches");
     }
 }
+
+#[test]
+fn what_creeps_under_its_weight_has_no_rest_to_judge_by() {
+    let mut network = heavy(standing(Waveform::constant(0.0)), GravityStart::Unloaded);
+    let creeping =
+        Model::series([part(Spring { stiffness: STIFFNESS }), part(Dashpot { damping: 3e3 })]);
+    network.set_model(0, creeping);
+    network.add_effect(stop(0.1));
+    let refused = Vibration::new(&network, 1.0, None).unwrap_err();
+    assert_eq!(refused, VibrationError::Rest);
+}

@@ -1,6 +1,7 @@
 mod contacts;
 mod modes;
 mod near_pole;
+mod quantities;
 
 use std::f64::consts::TAU;
 

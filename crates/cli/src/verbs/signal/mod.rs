@@ -22,7 +22,7 @@ use self::{
     read::{MeasuredChannel, Record},
 };
 use crate::{
-    args::{frequency_class, paddings, shift},
+    args::{frequency_class, paddings, positive, shift},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::{argument, setting},
@@ -121,11 +121,6 @@ fn axes(text: &str) -> Result<Guided, String> {
     found
         .map(Guided)
         .ok_or_else(|| "it is one axis or two of x, y and z, as in `z` or `xz`".to_owned())
-}
-
-fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let value = argument(name, text, dimension)?;
-    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
 }
 
 fn speed(text: &str) -> Result<f64, String> {

@@ -1,11 +1,16 @@
 //! What `vibrate` draws, and what it writes into a folder.
 
-use dashpot_analysis::vibration::{Sweep, Swing, Transmission, VibrationWarning};
+use dashpot_analysis::vibration::{
+    DriveKind, Quantity, Sweep, Swing, Transmission, VibrationWarning,
+};
 use dashpot_plot::{Report, ReportFigure, Table, VibrationCurve, VibrationSeries};
 
 use super::{
     DIGITS, Shaken,
-    tables::{degrees, drive, modes, range_notes, resonances, response, steady, steady_notes},
+    tables::{
+        degrees, drive, modes, quantities, range_notes, resonances, response, steady, steady_notes,
+        title as title_of,
+    },
 };
 use crate::{
     error::CliError,
@@ -19,18 +24,23 @@ use crate::{
 
 /// Ratios and phases at all frequencies.
 const TABLE: &str = "response.csv";
-const FIGURES: [&str; 2] = ["transmissibility.svg", "phase.svg"];
+const PHASE: &str = "phase.svg";
 
-/// The files that are written besides the result.
-pub(super) fn names() -> Vec<String> {
-    FIGURES.iter().chain([&TABLE, &PAGE]).map(|own| (*own).to_owned()).collect()
+/// The files that are written besides the result, with a figure for each of these quantities.
+pub(super) fn names(quantities: &[&Quantity], drive: DriveKind) -> Vec<String> {
+    let figures = quantities.iter().map(|own| figure(&title_of(own, drive)));
+    figures.chain([PHASE, TABLE, PAGE].map(str::to_owned)).collect()
+}
+
+fn figure(title: &str) -> String {
+    format!("{}.svg", title.replace(' ', "-"))
 }
 
 /// Adds all files but the result.
 pub(super) fn write(files: &mut Staged<'_>, shaken: &Shaken) -> Result<(), CliError> {
     let all = &shaken.sweep.transmissions;
-    let header = all.iter().flat_map(|Transmission { name, .. }| {
-        [("ratio", "1"), ("phase", "deg"), ("error", "1")]
+    let header = all.iter().flat_map(|Transmission { name, unit, .. }| {
+        [("ratio", *unit), ("phase", "deg"), ("error", *unit)]
             .map(|(what, unit)| format!("{what} of {name} [{unit}]"))
     });
     let header = ["frequency [Hz]".to_owned()].into_iter().chain(header);
@@ -38,7 +48,7 @@ pub(super) fn write(files: &mut Staged<'_>, shaken: &Shaken) -> Result<(), CliEr
         let values = all.iter().flat_map(|own| {
             let swing = own.swings[at];
             // A zero has no sign.
-            let phase = swing.map(|swing| degrees(swing.phase) + 0.0);
+            let phase = swing.filter(|_| own.has_phase).map(|swing| degrees(swing.phase) + 0.0);
             [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
         });
         list([Some(*frequency)].into_iter().chain(values))
@@ -47,15 +57,23 @@ pub(super) fn write(files: &mut Staged<'_>, shaken: &Shaken) -> Result<(), CliEr
     files.add_with(TABLE, |out| csv(out, header, rows))?;
     let figures = figures(&shaken.sweep)?;
     files.add(PAGE, page(shaken, &figures).html())?;
-    FIGURES.into_iter().zip(figures).try_for_each(|(name, own)| files.add(name, own.svg))
+    figures.into_iter().try_for_each(|(name, own)| files.add(&name, own.svg))
 }
 
-fn figures(sweep: &Sweep) -> Result<[ReportFigure; 2], CliError> {
-    let series = series(sweep);
-    Ok([ReportFigure::of(&series.ratio_chart())?, ReportFigure::of(&series.phase_chart())?])
+/// A figure of each quantity, and one of all phases, with the names of their files.
+fn figures(sweep: &Sweep) -> Result<Vec<(String, ReportFigure)>, CliError> {
+    let mut figures = Vec::new();
+    for series in series(sweep) {
+        figures.push((figure(&series.quantity), ReportFigure::of(&series.ratio_chart())?));
+    }
+    let phases = of(sweep, String::new(), "", |own| own.has_phase);
+    if !phases.curves.is_empty() {
+        figures.push((PHASE.to_owned(), ReportFigure::of(&phases.phase_chart())?));
+    }
+    Ok(figures)
 }
 
-fn page(shaken: &Shaken, figures: &[ReportFigure]) -> Report {
+fn page(shaken: &Shaken, figures: &[(String, ReportFigure)]) -> Report {
     let Shaken { scene, sweep, .. } = shaken;
     let of_steady = shaken.steady.iter();
     let warnings = of_steady.clone().flat_map(|own| &own.warnings).map(ToString::to_string);
@@ -66,21 +84,37 @@ fn page(shaken: &Shaken, figures: &[ReportFigure]) -> Report {
     Report {
         title: title(scene).to_owned(),
         warnings: list(warnings),
-        verdict: [drive(&sweep.drive)].into_iter().chain(notes).collect(),
+        verdict: [drive(sweep)].into_iter().chain(notes).collect(),
         tables: tables.filter(|own| !own.rows.is_empty()).collect(),
         network: sketch::figure(scene),
-        figures: figures.to_vec(),
+        figures: list(figures.iter().map(|own| own.1.clone())),
         details: vec![response(sweep, usize::MAX).0, Table::plain("Settings", origin::rows(scene))],
         scene_text: scene.text.to_string(),
     }
 }
 
-/// The responses as the plain numbers that figures are drawn from, with their peaks between the
-/// frequencies of the list.
-pub(super) fn series(sweep: &Sweep) -> VibrationSeries {
+/// The responses as the plain numbers that figures are drawn from, with their peaks between the frequencies of the list:
+/// quantity by quantity.
+pub(super) fn series(sweep: &Sweep) -> Vec<VibrationSeries> {
+    let kind = sweep.drive.kind;
+    let series = |own: &Quantity| {
+        of(sweep, title_of(own, kind), own.unit(kind), |shown| shown.quantity == own.word)
+    };
+    quantities(sweep).into_iter().map(series).collect()
+}
+
+fn of(
+    sweep: &Sweep,
+    quantity: String,
+    unit: &str,
+    is_shown: impl Fn(&Transmission) -> bool,
+) -> VibrationSeries {
+    let shown = sweep.transmissions.iter().filter(|own| is_shown(own));
     VibrationSeries {
         title: format!("Response to {}", sweep.drive.name),
-        curves: sweep.transmissions.iter().map(|transmission| curve(sweep, transmission)).collect(),
+        quantity,
+        unit: Unit::plain(unit).symbol,
+        curves: list(shown.map(|own| curve(sweep, own))),
     }
 }
 
@@ -91,8 +125,8 @@ fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     let peaks = transmission.resonances.iter().filter_map(|resonance| {
         let height = resonance.swing?.amplitude;
-        let value = Unit::plain("1").number(height, DIGITS);
-        let label = format!("{value} at {}", quantity(resonance.frequency, "Hz", DIGITS));
+        let height_text = quantity(height, transmission.unit, DIGITS);
+        let label = format!("{height_text} at {}", quantity(resonance.frequency, "Hz", DIGITS));
         Some((resonance.frequency, height, label))
     });
     let value = |of: fn(Swing) -> f64| {

@@ -11,12 +11,15 @@ use dashpot_analysis::vibration::{
     VibrationWarning,
 };
 use dashpot_network::parameters::Dimension;
-use dashpot_scene::{Scene, units::parse_quantity};
+use dashpot_scene::{
+    Scene,
+    units::{Quantity, parse_quantity},
+};
 use serde::Serialize;
 
 use self::tables::{drive, modes, range_notes, resonances, response, steady, steady_notes};
 use crate::{
-    args::{SceneArguments, When},
+    args::{SceneArguments, When, positive},
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
@@ -36,7 +39,8 @@ const PLOT_HEIGHT: usize = 16;
     dashpot vibrate crate.toml\n  \
     dashpot vibrate crate.toml --from \"1 Hz\" --to \"200 Hz\" --out crate-vibration\n  \
     dashpot vibrate crate.toml --at \"20 Hz\" --amplitude \"0.5 g0\"\n  \
-    dashpot vibrate reference --drive ground --of head\n\n\
+    dashpot vibrate reference --drive ground --of head\n  \
+    dashpot vibrate reference --drive ground --of padding.force,ground.apparent-mass\n\n\
     One load or motion is a sine of any small size, all others are silent: the functions of \
     time in the scene, weights and start speeds do not matter. A fixed node such as `ground` may \
     be shaken too. Scenes that switch or are not linear are refused.")]
@@ -55,8 +59,10 @@ pub(crate) struct VibrateArguments {
     /// How many frequencies, at equal ratios; resonances are found between them.
     #[arg(long, value_name = "NUMBER", default_value_t = 200)]
     points: usize,
-    /// Nodes to look at, or supports where a load drives [default: all masses, all supports].
-    #[arg(long, value_name = "NODE,…", value_delimiter = ',')]
+    /// Nodes to look at, or supports and elements where a load drives [default: all masses, all supports]; or
+    /// quantities, as `padding.force`: displacement of a node, force, deformation and power of an element, and
+    /// dynamic-stiffness, impedance and apparent-mass of the driven node.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     of: Vec<String>,
     /// Peaks of the steady state at this frequency, in place of the table over frequency.
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = frequency, requires = "amplitude")]
@@ -76,16 +82,7 @@ pub(crate) struct VibrateArguments {
 }
 
 fn frequency(text: &str) -> Result<f64, String> {
-    let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
-    let is_frequency = quantity.dimension.is_none_or(|dimension| dimension == Dimension::FREQUENCY);
-    if quantity.angle != 0 {
-        let frequency = quantity.value / TAU;
-        Err(format!("that is an angular frequency; write \"{frequency:.6} Hz\""))
-    } else if is_frequency && quantity.value > 0.0 {
-        Ok(quantity.value)
-    } else {
-        Err("it must be a positive frequency, such as \"20 Hz\"".to_owned())
-    }
+    positive("frequency", text, Dimension::FREQUENCY)
 }
 
 /// What shaking a scene has shown.
@@ -103,13 +100,15 @@ pub(crate) fn vibrate(
     let scene = arguments.scene.read(terminal)?;
     note_means(&scene);
     let vibration = Vibration::new(&scene.network, scene.run.duration, arguments.drive.as_deref())?;
-    let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
     let settings = SweepSettings {
         from: arguments.from,
         to: arguments.to,
         points: arguments.points,
         of: arguments.of.iter().map(|own| own.trim().to_owned()).collect(),
     };
+    let quantities = vibration.quantities(&settings.of)?;
+    let names = files::names(&quantities, vibration.drive().kind);
+    let folder = Folder::wanted(arguments.out.as_deref(), names)?;
     let mut bar = Bar::new("vibrate", 0.0, terminal.error.attended);
     let sweep = vibration.sweep_watched(&settings, &mut |done, of| bar.count(done, of))?;
     let steady = match (arguments.at, &arguments.amplitude) {
@@ -129,35 +128,27 @@ pub(crate) fn vibrate(
 /// The amplitude of the drive \[m or N\]: that of an acceleration is one of a displacement, too.
 fn amplitude(vibration: &Vibration, frequency: f64, text: &str) -> Result<f64, CliError> {
     let drive = vibration.drive();
-    let wrong = |reason: String| CliError::WrongAmplitude { drive: drive.name.clone(), reason };
-    let quantity = parse_quantity(text).map_err(|error| wrong(error.to_string()))?;
-    // Only a motion has an acceleration for its amplitude.
-    let quantity = quantity.meant(Dimension::ACCELERATION);
-    let omega = TAU * frequency;
-    let value = match (drive.kind, quantity.dimension) {
-        (DriveKind::Motion, None | Some(Dimension::LENGTH))
-        | (DriveKind::Load, None | Some(Dimension::FORCE)) => quantity.value,
-        (DriveKind::Motion, Some(Dimension::ACCELERATION)) => quantity.value / (omega * omega),
-        (DriveKind::Motion, Some(_)) => {
-            let wanted = "a displacement or an acceleration is wanted, such as \"1 mm\" or";
-            return Err(wrong(format!("{wanted} \"0.5 g\"")));
+    let wrong = |reason: String| CliError::setting("--amplitude", reason);
+    let acceleration = Dimension::ACCELERATION;
+    let is_acceleration = |own: Quantity| own.meant(acceleration).dimension == Some(acceleration);
+    let (dimension, over, other) = match drive.kind {
+        DriveKind::Motion if parse_quantity(text).is_ok_and(is_acceleration) => {
+            (acceleration, (TAU * frequency).powi(2), "")
         }
-        (DriveKind::Load, Some(_)) => {
-            return Err(wrong("a force is wanted, such as \"10 N\"".to_owned()));
+        DriveKind::Motion => {
+            (Dimension::LENGTH, 1.0, "; an acceleration, such as \"0.5 g\", is taken as well")
         }
+        DriveKind::Load => (Dimension::FORCE, 1.0, ""),
     };
-    if value.is_normal() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(wrong(format!("`{text}` is not a positive amplitude")))
-    }
+    let value = positive(&drive.name, text, dimension).map_err(|own| wrong(own + other))? / over;
+    if value.is_normal() { Ok(value) } else { Err(wrong(format!("`{text}` is too small"))) }
 }
 
 impl Study for Shaken {
     fn text(&self, text: &mut Text) {
         let Self { sweep, .. } = self;
         text.title(title(&self.scene));
-        text.faint(&drive(&sweep.drive));
+        text.faint(&drive(sweep));
         if let Some(own) = &self.steady {
             steady(own).iter().for_each(|own| text.table(own));
             text.paragraphs(steady_notes(own));
@@ -174,7 +165,7 @@ impl Study for Shaken {
             );
         }
         if text.is_plotted(self.plot) {
-            text.chart(&files::series(sweep).ratio_chart(), PLOT_HEIGHT);
+            files::series(sweep).iter().for_each(|own| text.chart(&own.ratio_chart(), PLOT_HEIGHT));
         }
     }
 
@@ -213,8 +204,10 @@ fn response_object(transmission: &Transmission) -> impl Serialize {
     };
     object! {
         name: &transmission.name,
+        quantity: transmission.quantity,
+        unit: transmission.unit,
         ratio: all(|own| own.amplitude),
-        phase: all(|own| own.phase),
+        phase: transmission.has_phase.then(|| all(|own| own.phase)),
         error: all(|own| own.error),
         resonances: list(transmission.resonances.iter().map(peak)),
         at_rest: transmission.at_rest,

@@ -2,12 +2,14 @@
 
 use std::f64::consts::PI;
 
-use dashpot_analysis::vibration::{Drive, DriveKind, Steady, Sweep, Swing, Transmission};
+use dashpot_analysis::vibration::{
+    Drive, DriveKind, QUANTITIES, Quantity, Steady, Sweep, Swing, Transmission,
+};
 use dashpot_plot::Table;
 
 use crate::{
     numbers::{Unit, bound, quantity},
-    text::width,
+    text::{capital, width},
 };
 
 /// Digits of what is computed.
@@ -22,20 +24,35 @@ pub(super) fn degrees(phase: f64) -> f64 {
     phase * (180.0 / PI)
 }
 
-/// What is driven, and what the ratio is.
-pub(super) fn drive(drive: &Drive) -> String {
-    let name = &drive.name;
-    match drive.kind {
-        DriveKind::Motion => format!(
-            "The motion of `{name}` is a sine, all else that drives is silent. Transmissibility: \
-             amplitude of a node over that of `{name}`."
-        ),
-        DriveKind::Load => format!(
-            "The load `{name}` on `{}` is a sine, all else that drives is silent. \
-             Transmissibility: amplitude of the force on a support over that of `{name}`.",
-            drive.node
-        ),
+/// What is driven, and what the ratios are.
+pub(super) fn drive(sweep: &Sweep) -> String {
+    let Drive { name, node, kind } = &sweep.drive;
+    let (driven, amplitude) = match kind {
+        DriveKind::Motion => (format!("motion of `{name}`"), "displacement"),
+        DriveKind::Load => (format!("load `{name}` on `{node}`"), "force"),
+    };
+    let amplitude = format!("the {amplitude} of `{name}`");
+    let of_quantity = quantities(sweep).into_iter().map(|own| {
+        let about = own.about.replace("{}", &amplitude);
+        format!("{}: {about}.", capital(&title(own, *kind)))
+    });
+    let text = format!("The {driven} is a sine, all else that drives is silent.");
+    [text].into_iter().chain(of_quantity).collect::<Vec<_>>().join(" ")
+}
+
+/// The quantities of all responses, each once.
+pub(super) fn quantities(sweep: &Sweep) -> Vec<&'static Quantity> {
+    let is_shown =
+        |own: &&Quantity| sweep.transmissions.iter().any(|shown| shown.quantity == own.word);
+    QUANTITIES.iter().filter(is_shown).collect()
+}
+
+/// The name of a quantity in words.
+pub(super) fn title(quantity: &Quantity, drive: DriveKind) -> String {
+    if quantity.word == drive.usual().word {
+        return "transmissibility".to_owned();
     }
+    quantity.word.replace('-', " ")
 }
 
 fn ratio(value: f64) -> String {
@@ -48,12 +65,6 @@ fn angle(phase: f64) -> String {
 
 fn hertz(value: f64) -> String {
     quantity(value, "Hz", DIGITS)
-}
-
-fn watts(value: f64) -> String {
-    let units = [("kW", 1e3), ("W", 1.0), ("mW", 1e-3)];
-    let (symbol, factor) = units.into_iter().find(|unit| value >= unit.1).unwrap_or(("µW", 1e-6));
-    Unit::new(symbol, factor).text(value, DIGITS)
 }
 
 /// The modes, each with what its masses do.
@@ -95,16 +106,15 @@ pub(super) fn resonances(sweep: &Sweep) -> Table {
     let rows = sweep.transmissions.iter().flat_map(|transmission| {
         transmission.resonances.iter().map(|resonance| {
             let none = || NONE.to_owned();
-            let swing = |text: fn(f64) -> String, value: fn(Swing) -> f64| {
-                resonance.swing.map_or_else(none, |swing| text(value(swing)))
-            };
+            let swing = resonance.swing;
+            let phase = swing.filter(|_| transmission.has_phase);
             let band =
                 resonance.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
             vec![
                 transmission.name.clone(),
                 hertz(resonance.frequency),
-                swing(ratio, |own| own.amplitude),
-                swing(angle, |own| own.phase),
+                swing.map_or_else(none, |own| quantity(own.amplitude, transmission.unit, DIGITS)),
+                phase.map_or_else(none, |own| angle(own.phase)),
                 resonance.quality().map_or_else(none, ratio),
                 band.unwrap_or_else(none),
             ]
@@ -140,7 +150,8 @@ pub(super) fn range_notes(sweep: &Sweep) -> Vec<String> {
 /// The limits of slow oscillation; one that all have in common is said once.
 fn limits(all: &[Transmission]) -> String {
     let text = |transmission: &Transmission| {
-        transmission.at_rest.map_or("none".to_owned(), |at_rest| ratio(at_rest.amplitude))
+        let at_rest = transmission.at_rest;
+        at_rest.map_or("none".to_owned(), |own| quantity(own.amplitude, transmission.unit, DIGITS))
     };
     match all {
         [first, _, ..] if all.iter().all(|own| text(own) == text(first)) => {
@@ -162,18 +173,25 @@ pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>)
         (0..count).map(|at| (at * (total - 1) + (count - 1) / 2) / (count - 1).max(1)).collect();
     let whole = |shown: &[Transmission]| {
         let mut header = vec!["frequency"];
-        header.extend(shown.iter().flat_map(|own| [own.name.as_str(), "phase °"]));
+        for own in shown {
+            header.push(&own.name);
+            header.extend(own.has_phase.then_some("phase °"));
+        }
         let row = |&at: &usize| {
             let mut row = vec![hertz(sweep.frequencies[at])];
             for own in shown {
-                match own.swings[at] {
-                    Some(own) => row.extend([ratio(own.amplitude), angle(own.phase)]),
-                    None => row.extend([NONE, NONE].map(str::to_owned)),
-                }
+                let text =
+                    |text: &dyn Fn(Swing) -> String| own.swings[at].map_or(NONE.to_owned(), text);
+                row.push(text(&|swing| quantity(swing.amplitude, own.unit, DIGITS)));
+                row.extend(own.has_phase.then(|| text(&|swing| angle(swing.phase))));
             }
             row
         };
-        Table::new("Transmissibility", &header, places.iter().map(row))
+        let caption = match quantities(sweep)[..] {
+            [only] => capital(&title(only, sweep.drive.kind)),
+            _ => "Responses".to_owned(),
+        };
+        Table::new(caption, &header, places.iter().map(row))
     };
     let all = &sweep.transmissions;
     let fitting = (1..=all.len()).rev().find(|&own| width(&whole(&all[..own])) <= columns);
@@ -214,6 +232,7 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
             force(&|own| angle(own.phase)),
             quantity(element.deformation.amplitude, "m", DIGITS),
             angle(element.deformation.phase),
+            quantity(element.power, "W", DIGITS),
         ]
     });
     let supports = steady.supports.iter().map(|support| {
@@ -225,7 +244,7 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
     });
     let header = ["node", "displacement", "acceleration", "", "phase °"];
     let nodes = Table::new(caption, &header, nodes);
-    let header = ["element", "force", "phase °", "deformation", "phase °"];
+    let header = ["element", "force", "phase °", "deformation", "phase °", "dissipates"];
     let elements = Table::new("", &header, elements);
     let supports = Table::new("", &["support", "force", "phase °"], supports);
     vec![nodes, elements, supports]
@@ -235,7 +254,7 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
 pub(super) fn steady_notes(steady: &Steady) -> Vec<String> {
     let power = steady.power.map(|power| {
         // A power that only rounding makes is none.
-        format!("the drive puts in {} on average", watts(power.max(0.0)))
+        format!("the drive puts in {} on average", quantity(power.max(0.0), "W", DIGITS))
     });
     let note = "weights and other constant forces come on top; elements pull as they push";
     power.into_iter().chain([note.to_owned()]).collect()
