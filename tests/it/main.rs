@@ -39,6 +39,7 @@ mod every_law;
 mod examples;
 mod files;
 mod fit;
+mod fit_cost;
 mod fit_folders;
 mod fit_minimum;
 mod fit_mistakes;

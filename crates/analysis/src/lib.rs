@@ -54,7 +54,9 @@ pub use report::verdict;
 pub use report::warning::{Beyond, Harder, Missed, Through, Warning};
 pub use report::{ContactReport, MeasureReport, RunReport, SolverReport, SystemReport};
 pub use report::{Difference, differences};
-pub use run::{choice, reported_measures, solve_assembly, undefined_measures};
+pub use run::{
+    Signals, choice, reported_measures, solve_assembly, solve_signals, undefined_measures,
+};
 pub use scatter::{Band, Chance, Odds, ScatterReport, ScatterSource};
 pub use settings::{Accuracy, Choice, SolveSettings, Stop};
 pub use solution::{Solution, threshold_at};

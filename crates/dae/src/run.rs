@@ -21,6 +21,8 @@ pub struct Run {
     pub keep: Keep,
     /// How much work it may be.
     pub budget: Budget,
+    /// Whether errors of its signals will be asked for: of several intervals they take a second solution.
+    pub is_bounded: bool,
 }
 
 /// What a trajectory keeps of a solution.
@@ -56,6 +58,7 @@ impl Run {
             guards: Vec::new(),
             keep: Keep::Everything,
             budget: Budget::default(),
+            is_bounded: true,
         }
     }
 

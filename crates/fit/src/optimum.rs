@@ -48,6 +48,8 @@ const MOST_STEPS: u64 = 100;
 /// Convergence: part by which a step lowers the sum, and scaled gradient.
 const COST_CHANGE: f64 = 1e-10;
 const GRADIENT: f64 = 1e-12;
+/// So many steps in a row, each a quarter of the one before, that lower no sum are a sign of a kink, or of rounding.
+const MOST_REJECTED: usize = 10;
 
 /// The least squares within bounds, from a start between them; with a robust scale residuals beyond it count by their
 /// magnitude (Huber).
@@ -57,7 +59,8 @@ pub fn least_squares(
     start: &[f64],
     robust_scale: Option<f64>,
 ) -> Option<Optimum> {
-    let best = RefCell::new(Best { steps: 0, cost: f64::INFINITY, unknowns: start.to_vec() });
+    let unknowns = start.to_vec();
+    let best = RefCell::new(Best { steps: 0, cost: f64::INFINITY, unknowns, rejected: 0 });
     let (low, high) = (lower.to_vec(), upper.to_vec());
     let bounded = Bounded { problem, lower: low, upper: high, robust_scale, best: &best };
     let solver = TrustRegionReflective::new()
@@ -65,8 +68,13 @@ pub fn least_squares(
         .with_relative_cost_change_tolerance(problem.cost_change());
     let own = Executor::from_start(bounded, solver, start.to_vec()).max_iter(MOST_STEPS).run();
     let Ok(own) = own else {
-        let Best { cost, unknowns, .. } = best.into_inner();
-        return cost.is_finite().then_some(Optimum { unknowns, cost, is_converged: false });
+        let Best { cost, unknowns, rejected, .. } = best.into_inner();
+        // Of a refit nothing but its sum is asked for.
+        let is_asked = problem.cost_change() <= COST_CHANGE;
+        let is_converged = rejected > MOST_REJECTED
+            && is_asked
+            && is_settled(problem, [lower, upper], &unknowns, (robust_scale, cost));
+        return cost.is_finite().then_some(Optimum { unknowns, cost, is_converged });
     };
     let (unknowns, cost) = (own.param().clone(), own.cost());
     let code = own.report.termination.code();
@@ -144,6 +152,8 @@ struct Best {
     steps: usize,
     cost: f64,
     unknowns: Vec<f64>,
+    /// How many trials were no better since.
+    rejected: usize,
 }
 
 /// Why a search ended before its end.
@@ -199,9 +209,11 @@ impl Residual for Bounded<'_> {
         all[0] = square.sqrt();
         let mut best = self.best.borrow_mut();
         if 0.5 * square < best.cost {
-            (best.cost, best.unknowns) = (0.5 * square, unknowns.clone());
+            (best.cost, best.unknowns, best.rejected) = (0.5 * square, unknowns.clone(), 0);
+        } else {
+            best.rejected += 1;
         }
-        Ok(all)
+        if best.rejected > MOST_REJECTED { Err(Stopped) } else { Ok(all) }
     }
 }
 

@@ -196,7 +196,7 @@ impl Task<'_> {
 
     /// One solution, with the bounds that the method states, if any.
     fn once(&self, run: &Run, observer: &mut dyn Observer) -> Result<Outcome, SolveError> {
-        let mut solved = self.solve(run, true, observer)?;
+        let mut solved = self.solve(run, self.is_judged, observer)?;
         let bound = |reading: &Reading| reading.error.map(|error| error + rounding(reading));
         let bounded = self.settings.estimate && self.method.is_exact();
         let errors = solved.readings.iter().map(|reading| bound(reading).filter(|_| bounded));
@@ -205,7 +205,7 @@ impl Task<'_> {
         Ok(Outcome {
             of_method: errors.clone(),
             errors,
-            open_end: OpenEnd::of_one(self, &solved),
+            open_end: self.is_judged.then(|| OpenEnd::of_one(self, &solved)).flatten(),
             instants: None,
             solved,
             solves_for_error: 0,

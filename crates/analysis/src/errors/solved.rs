@@ -26,6 +26,8 @@ pub(crate) struct Task<'a> {
     pub(crate) settings: &'a SolveSettings,
     pub(crate) selected: &'a [Selected],
     pub(crate) method: &'a dyn Method,
+    /// Whether solutions are judged by their energy and sliders before they are taken.
+    pub(crate) is_judged: bool,
 }
 
 /// A solution with the measures read off it.
@@ -75,13 +77,23 @@ impl Solved {
         Solution::new(assembly, &self.trajectory).doubting(self.threshold)
     }
 
+    /// What it tells of errors.
+    pub(crate) fn told(&self) -> (f64, &[Reading]) {
+        (self.rtol, &self.readings)
+    }
+}
+
+impl Task<'_> {
     /// What is to be said of a solution in which so much energy is missing, or too much, that nothing of it
     /// can be trusted, or in which sliders do what they cannot.
-    pub(crate) fn fault(&self, assembly: &Assembly) -> Option<RunError> {
-        let energy = &self.balance(assembly).energy;
+    pub(crate) fn fault(&self, solved: &Solved) -> Option<RunError> {
+        if !self.is_judged {
+            return None;
+        }
+        let energy = &solved.balance(self.assembly).energy;
         let closure = energy.closure();
-        let (method, solution) =
-            (self.trajectory.method, Solution::new(assembly, &self.trajectory));
+        let method = solved.trajectory.method;
+        let solution = Solution::new(self.assembly, &solved.trajectory);
         if !closure.is_finite() {
             return Some(RunError::BeyondRange);
         }
@@ -91,13 +103,6 @@ impl Solved {
         slider_fault(&solution, energy).map(|fault| RunError::Slider { method, fault })
     }
 
-    /// What it tells of errors.
-    pub(crate) fn told(&self) -> (f64, &[Reading]) {
-        (self.rtol, &self.readings)
-    }
-}
-
-impl Task<'_> {
     /// Whether there is one solution only.
     pub(crate) fn is_single(&self) -> bool {
         self.method.is_exact() || !self.settings.estimate
@@ -138,7 +143,9 @@ impl Task<'_> {
         let read = solution.panels();
         run.budget.charge(read * READING);
         let readings = readings?;
-        let pulls = if threshold > 0.0 { solution.first_pulls() } else { Vec::new() };
+        // They are compared with those of other solutions.
+        let is_doubted = threshold > 0.0 && !self.is_single();
+        let pulls = if is_doubted { solution.first_pulls() } else { Vec::new() };
         let balance =
             if is_judged { OnceCell::from(Balance::of(&solution)) } else { OnceCell::new() };
         run.budget.charge((solution.panels() - read) * READING);

@@ -26,7 +26,7 @@ pub enum Drive {
 /// use dashpot_network::{Model, elements::{Dashpot, Spring}, part};
 ///
 /// let pad = Model::parallel([part(Spring { stiffness: 1e4 }), part(Dashpot { damping: 50.0 })]);
-/// let answer = Answer::to(&pad, Drive::Deformation, &[(0.0, 0.0), (0.01, 2e-3)], 1e-9)?;
+/// let answer = Answer::to(&pad, Drive::Deformation, &[(0.0, 0.0), (0.01, 2e-3)], (1e-9, true))?;
 /// assert!((answer.value(5e-3) - (1e4 * 1e-3 + 50.0 * 0.2)).abs() < 1e-6);
 /// # Ok::<(), dashpot_analysis::rheometer::Obstacle>(())
 /// ```
@@ -49,7 +49,7 @@ enum Course {
 impl Answer {
     /// That to what was done, `(time, value)` with rising times \[s\]: zero before the first row, straight from row to
     /// row. That of a linear model is in closed form, and that of one beside laws of the deformation alone to a deformation;
-    /// the tolerance is that of the methods which others are solved by.
+    /// the tolerance is that of the methods which others are solved by, and judged by their energy or not.
     ///
     /// # Errors
     ///
@@ -58,7 +58,7 @@ impl Answer {
         model: &Model,
         drive: Drive,
         rows: &[(f64, f64)],
-        tolerance: f64,
+        (tolerance, is_judged): (f64, bool),
     ) -> Result<Self, Obstacle> {
         let start = rows.first().map_or(0.0, |own| own.0);
         let history = History::through(rows.iter().map(|own| (own.0 - start, own.1)));
@@ -67,7 +67,7 @@ impl Answer {
             return Ok(Self { course: Course::Closed(own), start, length });
         }
         let rig = Rig::new(model, drive, &history);
-        let solved = solve(&rig, &Choice::Auto, (length, tolerance), Vec::new())?;
+        let solved = solve(&rig, &Choice::Auto, (length, tolerance), Vec::new(), is_judged)?;
         let number = rig.outputs.first().and_then(|own| solved.assembly.output(own));
         let number = number.ok_or(Obstacle::Undetermined)?;
         let course = Course::Solved(solved.solution().signal(number).clone());
@@ -120,7 +120,7 @@ mod tests {
         ]);
         let model = Model::parallel([part(Spring { stiffness: spring }), maxwell]);
         let rows = [(0.1, 0.0), (0.11, 2e-3), (0.2, 2e-3), (0.22, 5e-4)];
-        let own = Answer::to(&model, Drive::Deformation, &rows, 1e-9).unwrap();
+        let own = Answer::to(&model, Drive::Deformation, &rows, (1e-9, true)).unwrap();
         let grown = |t: f64| if t > 0.0 { -(-t / time).exp_m1() } else { 0.0 };
         let bends = [(0.1, 0.2), (0.11, -0.2), (0.2, -0.075)];
         for at in 0..60 {
@@ -144,11 +144,11 @@ mod tests {
         let rows = [(0.0, 1e-3), (0.011, 2e-3), (0.2, 2e-3), (0.22, 5e-4), (0.5, 9e-4)];
         for (drive, unit) in [(Drive::Deformation, 1.0), (Drive::Force, 1e5)] {
             let rows = rows.map(|own| (own.0, unit * own.1));
-            let own = Answer::to(&model, drive, &rows, 1e-9).unwrap();
+            let own = Answer::to(&model, drive, &rows, (1e-9, true)).unwrap();
             assert!(matches!(own.course, Course::Closed(_)));
             let history = History::through(rows.into_iter());
             let rig = Rig::new(&model, drive, &history);
-            let solved = solve(&rig, &Choice::Auto, (0.5, 1e-9), Vec::new()).unwrap();
+            let solved = solve(&rig, &Choice::Auto, (0.5, 1e-9), Vec::new(), true).unwrap();
             let number = solved.assembly.output(&rig.outputs[0]).unwrap();
             let signal = solved.solution().signal(number).clone();
             let peak = signal.absolute_maximum((0.0, 0.5)).value;
@@ -170,11 +170,11 @@ mod tests {
         let viscous = Model::parallel([elastic.clone(), maxwell]);
         let rows = [(0.1, 0.0), (0.11, 4e-3), (0.2, 5e-3), (0.3, -1e-3)];
         for model in [elastic, viscous] {
-            let own = Answer::to(&model, Drive::Deformation, &rows, 1e-9).unwrap();
+            let own = Answer::to(&model, Drive::Deformation, &rows, (1e-9, true)).unwrap();
             assert!(matches!(own.course, Course::Closed(..)));
             let history = History::through(rows.iter().map(|own| (own.0 - 0.1, own.1)));
             let rig = Rig::new(&model, Drive::Deformation, &history);
-            let solved = solve(&rig, &Choice::Auto, (0.2, 1e-9), Vec::new()).unwrap();
+            let solved = solve(&rig, &Choice::Auto, (0.2, 1e-9), Vec::new(), true).unwrap();
             let number = solved.assembly.output(&rig.outputs[0]).unwrap();
             let signal = solved.solution().signal(number).clone();
             let peak = signal.absolute_maximum((0.0, 0.2));
@@ -192,7 +192,8 @@ mod tests {
     fn a_force_that_was_measured_is_answered_by_a_deformation() {
         let (stiffness, damping) = (1e4, 200.0);
         let model = Model::parallel([part(Spring { stiffness }), part(Dashpot { damping })]);
-        let own = Answer::to(&model, Drive::Force, &[(0.0, 100.0), (0.5, 100.0)], 1e-9).unwrap();
+        let own =
+            Answer::to(&model, Drive::Force, &[(0.0, 100.0), (0.5, 100.0)], (1e-9, true)).unwrap();
         for at in 1..20 {
             let t = 5e-3 * f64::from(at);
             let right = -0.01 * (-t * stiffness / damping).exp_m1();

@@ -10,9 +10,9 @@ use super::{
     history::{self, History, Instant},
     perturbation::{CAUTION, SEEDS},
     simulation::{NAME, Rig, Track, estimated, read},
-    solved::{Solved, solve},
+    solved::solve,
 };
-use crate::{Choice, Solution, energy::ledger::ledger};
+use crate::{Choice, Signals, Solution, energy::ledger::ledger};
 
 /// How many numbers a loop has.
 const COUNT: usize = 9;
@@ -305,7 +305,7 @@ fn simulate(
     instants: &[Instant],
 ) -> Result<Simulated, Obstacle> {
     let end = cycle.end();
-    let both = |solved: &Solved| {
+    let both = |solved: &Signals| {
         let solution = solved.solution();
         let own = Loop::read(&solution, cycle);
         let force = solution.assembly().connection(NAME).and_then(|own| own.force);
@@ -313,20 +313,20 @@ fn simulate(
         own.zip(track).ok_or(Obstacle::Undetermined)
     };
     let [coarse, middle, fine] = TOLERANCES;
-    let first = solve(rig, choice, (end, coarse), Vec::new())?;
+    let first = solve(rig, choice, (end, coarse), Vec::new(), true)?;
     let (own, track) = both(&first)?;
-    let (found, track) = if first.is_exact {
-        let again = |seed| solve(&rig.perturbed(seed), choice, (end, coarse), Vec::new());
+    let (found, track) = if first.rtol.is_none() {
+        let again = |seed| solve(&rig.perturbed(seed), choice, (end, coarse), Vec::new(), true);
         let others = SEEDS.map(again).into_iter().map(|own| Ok(both(&own?)?.0));
         let others = others.collect::<Result<Vec<Loop>, Obstacle>>()?;
         (own.moved(&others), track)
     } else {
-        let solved = |rtol| both(&solve(rig, choice, (end, rtol), Vec::new())?);
+        let solved = |rtol| both(&solve(rig, choice, (end, rtol), Vec::new(), true)?);
         let (second, third) = (solved(middle)?, solved(fine)?);
         let loops = Loop::estimated([own, second.0, third.0]);
         let mut tracks = estimated(&[track], &[second.1], vec![third.1]);
         (loops, tracks.remove(0))
     };
     let found = Some(found.rounded());
-    Ok(Simulated { method: first.method, track, found, obstacle: None })
+    Ok(Simulated { method: first.trajectory.method, track, found, obstacle: None })
 }

@@ -62,7 +62,7 @@ pub(crate) fn first_that_solves(
         let own = Task { method: method.as_ref(), ..*task };
         let error = match own.run(&Run { budget: share, ..run.clone() }, observer) {
             Ok(outcome) => {
-                let Some(error) = outcome.solved.fault(task.assembly) else {
+                let Some(error) = own.fault(&outcome.solved) else {
                     if !own.knows(&outcome) {
                         others.extend(short.into_iter().rev());
                     }
@@ -176,7 +176,7 @@ pub(crate) fn improved(
         let Ok(outcome) = own.run(&Run { budget, ..run.clone() }, observer) else { continue };
         let is_better =
             own.knows(&outcome) && (!is_known || own.is_better(&outcome, &found.outcome));
-        if is_better && outcome.solved.fault(task.assembly).is_none() {
+        if is_better && own.fault(&outcome.solved).is_none() {
             let name = found.method.name();
             let why = if !is_known {
                 format!("the error of `{name}` is not known")

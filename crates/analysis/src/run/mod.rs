@@ -7,17 +7,17 @@ mod outcome;
 mod preloads;
 mod warnings;
 
-use std::{sync::Arc, time::Instant};
+use std::{collections::BTreeSet, sync::Arc, time::Instant};
 
-use dashpot_dae::{Budget, Guard, Method, MethodKind, Observer, Run, methods};
+use dashpot_dae::{Budget, Guard, Method, MethodKind, Observer, Run, Trajectory, methods};
 use dashpot_network::{Assembly, Network};
 
 use self::{attempts::Found, outcome::report};
 use crate::{
-    Choice, Note, RunError, RunReport, SolveSettings, Stop,
-    errors::solved::{Task, keep},
+    Choice, ContactReport, Note, RunError, RunReport, Solution, SolveSettings, Stop,
+    errors::solved::{Task, keep, keep_also},
     measures::selection::{Selected, select},
-    memory,
+    memory, threshold_at,
 };
 
 /// Tolerance of a single solution whose error is not estimated, when none is given.
@@ -35,45 +35,25 @@ pub fn solve_assembly(
     settings: &SolveSettings,
     observer: &mut dyn Observer,
 ) -> Result<RunReport, RunError> {
+    solve_bounded(assembly, effects, settings, settings.estimate, observer)
+}
+
+/// The same; signals of a method that bounds its errors have theirs, or may have none.
+pub(crate) fn solve_bounded(
+    assembly: &Arc<Assembly>,
+    effects: &[&'static str],
+    settings: &SolveSettings,
+    is_bounded: bool,
+    observer: &mut dyn Observer,
+) -> Result<RunReport, RunError> {
     let started = Instant::now();
     settings.validate()?;
-    memory::foresee(assembly)?;
     let selected = select(assembly, &settings.measures, &settings.limits)?;
     check_keys(settings, &selected)?;
-    let run = Run {
-        t_end: settings.duration,
-        rtol: settings.rtol.unwrap_or(SINGLE),
-        tolerance_scaling: Vec::new(),
-        guards: guards(assembly, settings)?,
-        keep: keep(assembly, &selected),
-        budget: Budget::of(settings.budget),
-    };
-    let is_free = matches!(settings.method, Choice::Auto);
-    let first = choose(&settings.method, assembly, &run);
-    let is_exact = first.as_ref().is_ok_and(|first| first.0.is_exact());
-    let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
     // Each attempt is by a method of its own.
-    let task = Task { assembly, settings, selected: &selected, method: &methods::Auto };
-    let found = first.and_then(|first| {
-        let allows_explicit = methods::Auto::allows_explicit(&assembly.system, &run);
-        let others = || attempts::others(first.0.as_ref(), allows_explicit);
-        let mut others = if is_free { others() } else { Vec::new() };
-        let most = if reach.is_some() { attempts::UNDEFINED } else { u64::MAX };
-        let found = attempts::first_that_solves(&task, &run, (first, most), &mut others, observer)?;
-        Ok(attempts::improved(&task, &run, found, others, observer))
-    });
-    let (found, run) = match (found, reach) {
-        (Err(error), Some(reach)) => match attempts::of_a_part(&task, &run, reach, observer) {
-            Some((found, part)) => (found, part),
-            None => return Err(error),
-        },
-        // Figures of a part, with their errors, are better than figures of all of it of which nothing is known.
-        (Ok(found), Some(reach)) if !task.knows(&found.outcome) => {
-            let part = attempts::of_a_part(&task, &run, reach, observer);
-            part.unwrap_or((found, run))
-        }
-        (found, _) => (found?, run),
-    };
+    let (selected, method) = (&selected[..], &methods::Auto);
+    let task = Task { assembly, settings, selected, method, is_judged: true };
+    let (found, run) = found(assembly, &task, (&BTreeSet::new(), is_bounded), observer)?;
     let work = run.budget.done();
     run.budget.close();
     let Found { method, why, outcome } = found;
@@ -88,6 +68,97 @@ pub fn solve_assembly(
         None => why,
     };
     Ok(report)
+}
+
+/// A solution of which signals alone are asked for.
+#[derive(Debug)]
+pub struct Signals {
+    /// The compiled network.
+    pub assembly: Arc<Assembly>,
+    /// The solution.
+    pub trajectory: Trajectory,
+    /// The tolerance of its method, if that has one.
+    pub rtol: Option<f64>,
+}
+
+impl Signals {
+    /// What reads it.
+    pub fn solution(&self) -> Solution<'_> {
+        Solution::new(&self.assembly, &self.trajectory).doubting(threshold_at(self.rtol))
+    }
+
+    /// The contacts of the elements that touch an impactor.
+    pub fn contacts(&self) -> Vec<ContactReport> {
+        outcome::contact_reports(&self.solution())
+    }
+}
+
+/// A single solution of a network that is compiled already, of which these outputs are kept in any case: for studies
+/// that read many. It has no measures, and is not judged by its energy: whoever states a result has it judged by
+/// [`solve_assembly`].
+///
+/// # Errors
+///
+/// As [`solve_assembly`].
+pub fn solve_signals(
+    assembly: &Arc<Assembly>,
+    settings: &SolveSettings,
+    outputs: impl IntoIterator<Item = usize>,
+    observer: &mut dyn Observer,
+) -> Result<Signals, RunError> {
+    settings.validate()?;
+    let settings = &SolveSettings { estimate: false, ..settings.clone() };
+    let task = Task { assembly, settings, selected: &[], method: &methods::Auto, is_judged: false };
+    let outputs = outputs.into_iter().collect();
+    let (found, _) = found(assembly, &task, (&outputs, false), observer)?;
+    let Found { method, outcome, .. } = found;
+    let rtol = (!method.is_exact()).then_some(outcome.solved.rtol);
+    Ok(Signals { assembly: Arc::clone(assembly), trajectory: outcome.solved.trajectory, rtol })
+}
+
+/// The best solution of a task by the methods that settings allow, and the run that it is one of; of a large network
+/// it keeps some outputs besides.
+fn found(
+    assembly: &Arc<Assembly>,
+    task: &Task<'_>,
+    (outputs, is_bounded): (&BTreeSet<usize>, bool),
+    observer: &mut dyn Observer,
+) -> Result<(Found, Run), RunError> {
+    let settings = task.settings;
+    memory::foresee(assembly)?;
+    let run = Run {
+        t_end: settings.duration,
+        rtol: settings.rtol.unwrap_or(SINGLE),
+        tolerance_scaling: Vec::new(),
+        guards: guards(assembly, settings)?,
+        keep: keep_also(&keep(assembly, task.selected), outputs),
+        budget: Budget::of(settings.budget),
+        is_bounded,
+    };
+    let is_free = matches!(settings.method, Choice::Auto);
+    let first = choose(&settings.method, assembly, &run);
+    let is_exact = first.as_ref().is_ok_and(|first| first.0.is_exact());
+    let reach = if is_exact { None } else { reach(&settings.method, assembly, &run) };
+    let found = first.and_then(|first| {
+        let allows_explicit = methods::Auto::allows_explicit(&assembly.system, &run);
+        let others = || attempts::others(first.0.as_ref(), allows_explicit);
+        let mut others = if is_free { others() } else { Vec::new() };
+        let most = if reach.is_some() { attempts::UNDEFINED } else { u64::MAX };
+        let found = attempts::first_that_solves(task, &run, (first, most), &mut others, observer)?;
+        if !task.is_judged {
+            return Ok(found);
+        }
+        Ok(attempts::improved(task, &run, found, others, observer))
+    });
+    match (found, reach) {
+        (Err(error), Some(reach)) => attempts::of_a_part(task, &run, reach, observer).ok_or(error),
+        // Figures of a part, with their errors, are better than figures of all of it of which nothing is known.
+        (Ok(found), Some(reach)) if !task.knows(&found.outcome) => {
+            let part = attempts::of_a_part(task, &run, reach, observer);
+            Ok(part.unwrap_or((found, run)))
+        }
+        (found, _) => Ok((found?, run)),
+    }
 }
 
 /// How far `exact` follows a run that has more oscillations than are followed \[s\], if it is by a method

@@ -40,7 +40,7 @@ pub(super) fn report(
     run: &Run,
     mut outcome: Outcome,
 ) -> Result<RunReport, RunError> {
-    if let Some(fault) = outcome.solved.fault(assembly) {
+    if let Some(fault) = task.fault(&outcome.solved) {
         return Err(fault);
     }
     let known = outcome.solved.known.take();
@@ -137,7 +137,7 @@ fn solver_report(task: &Task<'_>, outcome: &Outcome) -> SolverReport {
 }
 
 /// The contacts of the elements that touch an impactor.
-fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
+pub(super) fn contact_reports(solution: &Solution<'_>) -> Vec<ContactReport> {
     let connections = solution.assembly().connections.iter().enumerate();
     connections
         .filter(|(_, connection)| {

@@ -31,8 +31,9 @@ const ROUNDINGS: f64 = 1e3;
 
 /// Solves a run interval by interval with one method.
 ///
-/// A method without an error of its own solves a run of several intervals twice, the second time with the state at the
-/// end of each interval perturbed in its last digits: by what comes of that the errors of its signals are estimated.
+/// A method without an error of its own solves a run of several intervals twice where errors will be asked for, the
+/// second time with the state at the end of each interval perturbed in its last digits: by what comes of that the errors
+/// of its signals are estimated.
 ///
 /// # Errors
 ///
@@ -53,7 +54,7 @@ pub fn integrate(
     let mut shared = Shared::default();
     let Solution { mut chain, name, t_end, first_phases, mut found } =
         solve(method, switching, run, (threshold, MOST_INTERVALS), &mut shared, observer)?;
-    if method.is_exact() && chain.intervals.len() > 1 {
+    if method.is_exact() && run.is_bounded && chain.intervals.len() > 1 {
         let perturbed = Perturbed { inner: switching };
         let unwatched = Run { guards: Vec::new(), t_end, ..run.clone() };
         let limits = (threshold, Perturbed::most_intervals(chain.intervals.len()));
@@ -250,6 +251,7 @@ impl Drive<'_> {
             guards: interval.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
             budget: self.run.budget.clone(),
+            is_bounded: self.run.is_bounded,
         };
         let mut shifted =
             Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };

@@ -55,7 +55,7 @@ impl Creep {
         let pad = pad.ok_or_else(|| no_creep("it is not in the scene".to_owned()))?;
         let (force, end) = (stress * platen.area, times.iter().copied().fold(0.0, f64::max));
         let answers = TOLERANCES.map(|tolerance| {
-            Answer::to(&pad.model, Drive::Force, &[(0.0, force), (end, force)], tolerance)
+            Answer::to(&pad.model, Drive::Force, &[(0.0, force), (end, force)], (tolerance, true))
         });
         let [Ok(coarse), Ok(fine)] = answers else {
             let why = answers.into_iter().find_map(Result::err).map(|own| own.to_string());

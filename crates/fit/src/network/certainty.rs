@@ -101,7 +101,7 @@ pub(super) fn certainty(
         let (ends, source) = if is_known && is_enough() {
             ([Some(value / factor), Some(value * factor)], Source::Covariance)
         } else if profile != Profile::Never && is_known {
-            (valley.ends(at, own), Source::Profile)
+            (valley.ends(at, &column), Source::Profile)
         } else {
             ([None; 2], Source::Covariance)
         };

@@ -106,29 +106,39 @@ impl<'v, 't> Valley<'v, 't> {
         most.is_finite().then_some(most)
     }
 
-    /// The ends of the interval of a number with about this standard deviation of its logarithm; `None` for one that
-    /// is not reached within the bounds.
-    pub(super) fn ends(&self, at: usize, deviation: f64) -> [Option<f64>; 2] {
+    /// The ends of the interval of a number with about this covariance of its logarithm with all unknowns; `None` for one
+    /// that is not reached within the bounds.
+    pub(super) fn ends(&self, at: usize, covariance: &[f64]) -> [Option<f64>; 2] {
+        let deviation = covariance[at].sqrt();
         let is_usable = deviation.is_finite() && deviation > 0.0;
         let step = if is_usable { (self.quantile * deviation).min(LONGEST) } else { FIRST };
-        [-step, step].map(|step| self.end(at, step).map(f64::exp))
+        [-step, step].map(|step| self.end(at, step, covariance).map(f64::exp))
     }
 
-    fn end(&self, at: usize, step: f64) -> Option<f64> {
+    fn end(&self, at: usize, step: f64, covariance: &[f64]) -> Option<f64> {
         let from = self.best.unknowns[at];
         let bound = if step < 0.0 { self.bounds[0][at] } else { self.bounds[1][at] };
         let room = (bound - from).abs();
-        let (mut inside, mut outside) = ((0.0, 0.0), None);
+        let (mut inside, mut outside, mut was_inside) = ((0.0, 0.0), None, None);
         let mut distance = step.abs().min(room);
-        let mut start = self.best.unknowns.clone();
+        // All others follow the one that is held on a line, as far as is known: the next refit begins there.
+        let is_usable = covariance[at] > 0.0;
+        let slope = |own: &f64| if is_usable { own / covariance[at] } else { 0.0 };
+        let mut slopes: Vec<f64> = covariance.iter().map(slope).collect();
         for _ in 0..MOST {
             if distance <= 0.0 || self.task.is_ended() {
                 return None;
             }
             let value = from + distance.copysign(step);
-            let rise = match self.held(at, value, &start) {
+            let start = self.best.unknowns.iter().zip(&slopes).enumerate().map(|(at, own)| {
+                let moved = own.0 + own.1 * (value - from);
+                let moved = if moved.is_finite() { moved } else { *own.0 };
+                moved.clamp(self.bounds[0][at], self.bounds[1][at])
+            });
+            let rise = match self.held(at, value, &start.collect::<Vec<f64>>()) {
                 Some((rise, unknowns)) => {
-                    start = unknowns;
+                    let moved = unknowns.iter().zip(&self.best.unknowns);
+                    slopes = moved.map(|(own, best)| (own - best) / (value - from)).collect();
                     rise
                 }
                 // What cannot be solved is no better.
@@ -144,6 +154,14 @@ impl<'v, 't> Valley<'v, 't> {
                 inside = (distance, rise);
             } else {
                 outside = Some((distance, rise));
+            }
+            // An end that stays twice draws the next place nearer (the Illinois rule).
+            let is_inside = rise < self.quantile;
+            if was_inside.replace(is_inside) == Some(is_inside) {
+                let kept = if is_inside { outside.as_mut() } else { Some(&mut inside) };
+                if let Some((_, own)) = kept {
+                    *own = f64::midpoint(*own, self.quantile);
+                }
             }
             distance = match outside {
                 None => (distance * (self.quantile / rise).clamp(1.1, GROWTH)).min(room),

@@ -6,7 +6,7 @@
 //! counted in a unit of the test; behind it stands how far what is known is off, and behind that how far clocks are from
 //! the middle of the step in which their curves jump.
 
-use std::{iter::repeat_n, ops::Range};
+use std::{cell::RefCell, iter::repeat_n, ops::Range, rc::Rc};
 
 use dashpot_signal::SettingsFault;
 use nalgebra::DMatrix;
@@ -35,6 +35,11 @@ const HIGHEST: f64 = 1.0;
 const BEYOND: f64 = 3.0;
 /// What is known of a gain or a number is not left by more standard deviations.
 const FARTHEST: f64 = 8.0;
+/// Curves of each test that are kept: slopes are asked for where residuals have been.
+const KEPT: usize = 2;
+
+/// Curves of a test, each with its numbers.
+type Kept = Vec<(Vec<f64>, Rc<dyn Curve>)>;
 
 /// What is fitted to what.
 pub(super) struct Task<'t> {
@@ -42,6 +47,8 @@ pub(super) struct Task<'t> {
     tests: &'t [Test],
     model: &'t Model<'t>,
     records: Vec<Record>,
+    /// The last curves of each test.
+    kept: RefCell<Vec<Kept>>,
     watched: Option<&'t Watched<'t>>,
 }
 
@@ -77,6 +84,7 @@ impl<'t> Task<'t> {
             tests,
             model,
             records: records.collect::<Result<_, _>>()?,
+            kept: RefCell::new(tests.iter().map(|_| Kept::new()).collect()),
             watched: None,
         })
     }
@@ -206,7 +214,7 @@ impl<'t> Task<'t> {
             let record = &self.records[at];
             let known = test.known.iter().map(|own| own.mean);
             let own: Vec<f64> = values.iter().copied().chain(known).collect();
-            let curve = (self.model)(at, &own)?;
+            let curve = self.solved(at, &own)?;
             if test.is_shifted {
                 let late = self.start_of_clock(at, curve.as_ref()) / record.length;
                 start.push(late.clamp(-1.0, 1.0));
@@ -247,7 +255,7 @@ impl<'t> Task<'t> {
     pub(super) fn left(&self, unknowns: &[f64]) -> Vec<f64> {
         let mut all = Vec::with_capacity(self.rows());
         for at in 0..self.tests.len() {
-            let Ok(curve) = (self.model)(at, &self.values_of(at, unknowns)) else {
+            let Ok(curve) = self.curve(at, unknowns) else {
                 return vec![f64::NAN; self.rows()];
             };
             all.extend(self.left_of(at, curve.as_ref(), self.own(at, unknowns)));
@@ -341,13 +349,23 @@ impl<'t> Task<'t> {
     }
 
     /// The curve of a test.
-    pub(super) fn curve(&self, test: usize, unknowns: &[f64]) -> Result<Box<dyn Curve>, String> {
+    pub(super) fn curve(&self, test: usize, unknowns: &[f64]) -> Result<Rc<dyn Curve>, String> {
         self.solved(test, &self.values_of(test, unknowns))
     }
 
     /// The curve of a test where its numbers have these values.
-    pub(super) fn solved(&self, test: usize, values: &[f64]) -> Result<Box<dyn Curve>, String> {
-        (self.model)(test, values)
+    pub(super) fn solved(&self, test: usize, values: &[f64]) -> Result<Rc<dyn Curve>, String> {
+        let is_it = |own: &&(Vec<f64>, Rc<dyn Curve>)| {
+            own.0.iter().zip(values).all(|(one, other)| one.to_bits() == other.to_bits())
+        };
+        if let Some(own) = self.kept.borrow()[test].iter().find(is_it) {
+            return Ok(Rc::clone(&own.1));
+        }
+        let curve: Rc<dyn Curve> = (self.model)(test, values)?.into();
+        let kept = &mut self.kept.borrow_mut()[test];
+        kept.truncate(KEPT - 1);
+        kept.insert(0, (values.to_vec(), Rc::clone(&curve)));
+        Ok(curve)
     }
 
     /// Derivatives by a number, by differences within its bounds.

@@ -1,12 +1,18 @@
 //! How large the motion of a run is, as far as its drives tell before anything is solved.
 
 use dashpot_dae::Waveform;
+use dashpot_numerics::roots::bisect;
 
 use crate::{
     Network, Support,
     elements::{Element, Law},
     network::start_velocity,
 };
+
+/// A law whose force grows by more than this over an octave of its deformation has its slope within that, in so many
+/// halvings.
+const STEEP: f64 = 100.0;
+const CLOSER: usize = 10;
 
 /// What drives a run, in all, in SI units.
 ///
@@ -74,11 +80,17 @@ impl Size {
         };
         let steady = |depth: f64| element.force(origin + depth, 0.0);
         let stored = |depth: f64| element.stored(origin + depth);
+        // A foam at the end of its way grows by powers of ten within an octave.
+        let depth_at = |holds: &dyn Fn(f64) -> bool| {
+            let high = first(holds);
+            let is_steep = steady(high) > STEEP * steady(0.5 * high);
+            if is_steep { bisect(0.5 * high, high, CLOSER, holds).1 } else { high }
+        };
         let thrown = (2.0 * self.given / self.mass).sqrt();
         let (depth, rate) = if stiffness > 0.0 {
-            let pressed = first(|depth| steady(depth) >= self.force)
-                .min(first(|depth| stored(depth) >= self.given));
-            let depth = first(|depth| stored(depth) >= self.energy);
+            let pressed = depth_at(&|depth| steady(depth) >= self.force)
+                .min(depth_at(&|depth| stored(depth) >= self.given));
+            let depth = depth_at(&|depth| stored(depth) >= self.energy);
             let pushed = (2.0 * self.force * pressed / self.mass).sqrt();
             (largest([depth, pressed, self.way]), largest([self.speed, pushed.min(thrown)]))
         } else {
@@ -136,4 +148,48 @@ fn fastest(motion: &Waveform, duration: f64) -> f64 {
             piece.slope.abs() + bent + frequency * piece.sine.hypot(piece.cosine)
         });
     rates.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::elements::{Foam, Foundation, Indenter, Shape};
+
+    #[test]
+    fn the_slope_of_a_foam_at_the_end_of_its_way_is_that_to_where_its_energy_is_taken_up() {
+        let indenter = Indenter {
+            shape: Shape::Sphere,
+            radius: Some(0.085),
+            diameter: None,
+            length: None,
+            pad_radius: Some(-0.11),
+        };
+        for exponent in [1.0, 2.0, 5.0] {
+            let foam = Foam {
+                modulus: 2e6,
+                plateau: 1e5,
+                densification: 2e4,
+                exponent,
+                thickness: 0.03,
+                area: indenter.area().unwrap(),
+            };
+            let pad = Foundation::new(Arc::new(foam), indenter).unwrap();
+            let pressed = pad.phases().unwrap();
+            let crate::phases::PhaseLaw::Element(pressed) = pressed.law(pressed.first(0.0)) else {
+                panic!("it is pressed")
+            };
+            for energy in [2.0, 20.0, 73.0] {
+                let size = Size { energy, ..Size::default() };
+                let Law::Nonlinear { stiffness, .. } = size.law(pressed.as_ref()) else {
+                    panic!("it is not linear")
+                };
+                let (_, depth) = bisect(0.0, 0.04, 60, |depth| pad.stored(depth) >= energy);
+                let slope = pad.force(depth, 0.0) / depth;
+                let factor = stiffness / slope;
+                assert!((0.1..100.0).contains(&factor), "{exponent}, {energy} J: {factor}");
+            }
+        }
+    }
 }

@@ -245,9 +245,15 @@ impl Face {
         };
         // A cubic times a quadratic is a polynomial of the fifth degree.
         let exact = GaussLegendre::with_points(3);
-        let pieces = places.windows(2).map(|pair| {
+        let last = places.len().saturating_sub(2);
+        let pieces = places.windows(2).enumerate().map(|(at, pair)| {
+            let length = pair[1] - pair[0];
             if is_cubic && self.is_quadratic() {
                 exact.integrate(pair[0], pair[1], weighted)
+            } else if at == last {
+                // Powers of how little the outer columns are shortened are smooth over its root.
+                integral(|root| weighted(pair[1] - length * root * root) * root, 0.0, 1.0)
+                    * (2.0 * length)
             } else {
                 integral(weighted, pair[0], pair[1])
             }

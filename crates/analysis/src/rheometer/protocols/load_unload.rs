@@ -189,7 +189,7 @@ fn reached(
     let stop = Stop { output: format!("{NAME}.force"), level, direction };
     let choice = methods.first().cloned().unwrap_or_default();
     let [.., finest] = TOLERANCES;
-    let solved = solve(&rig, &choice, (end, finest), vec![stop])
+    let solved = solve(&rig, &choice, (end, finest), vec![stop], true)
         .map_err(|obstacle| RheometerError::NoTurn { obstacle: Box::new(obstacle) })?;
     let time = solved.trajectory.t_end;
     Ok((time < end).then_some(time))

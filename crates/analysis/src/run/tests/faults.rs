@@ -82,8 +82,13 @@ fn by_faulty(factor: f64) -> Result<RunReport, RunError> {
     let dashpot =
         assembly.primitives.iter().find(|primitive| primitive.element.kind() == "dashpot").unwrap();
     let faulty = Faulty { output: dashpot.force, factor };
-    let task =
-        Task { assembly: &assembly, settings: &settings, selected: &selected, method: &faulty };
+    let task = Task {
+        assembly: &assembly,
+        settings: &settings,
+        selected: &selected,
+        method: &faulty,
+        is_judged: true,
+    };
     let outcome = task.run(&run, &mut Silent).unwrap();
     report(&assembly, &[], &task, &run, outcome)
 }

@@ -2,6 +2,7 @@ mod faults;
 mod preloads;
 mod random;
 mod rest;
+mod signals;
 mod single;
 
 use dashpot_dae::{Direction, Piece, Waveform};

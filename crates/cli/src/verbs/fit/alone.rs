@@ -77,6 +77,12 @@ impl Alone {
         drawn_as(self.kind, self.is_material)
     }
 
+    /// Between which times, or frequencies, it is known.
+    pub(super) fn span(&self) -> (f64, f64) {
+        let [first, last] = [self.history.first(), self.history.last()];
+        (first.map_or(0.0, |own| own.0), last.map_or(0.0, |own| own.0))
+    }
+
     /// Whether its rows are over a frequency \[rad/s\].
     pub(super) fn is_oscillation(&self) -> bool {
         self.kind.is_oscillation()
@@ -92,11 +98,12 @@ impl Alone {
         }
     }
 
-    /// Its curve where the numbers have these values.
+    /// Its curve where the numbers have these values; one that was solved is judged by its energy or not.
     pub(super) fn curve(
         &self,
         poser: &Poser<'_>,
         values: &[f64],
+        is_judged: bool,
     ) -> Result<Box<dyn Curve>, String> {
         let model = poser.model(&self.name, values)?.model;
         let drive = match self.kind {
@@ -105,7 +112,7 @@ impl Alone {
             _ => None,
         };
         if let Some(drive) = drive {
-            let answer = Answer::to(&model, drive, &self.history, RTOL);
+            let answer = Answer::to(&model, drive, &self.history, (RTOL, is_judged));
             return Ok(Box::new(Answered(answer.map_err(|fault| fault.to_string())?)));
         }
         if let Some(element) = first_nonlinear(&model) {

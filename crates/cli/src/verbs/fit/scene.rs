@@ -16,7 +16,7 @@ use super::{
     check_tests, is_on,
     shown::{Shown, shown},
     solver::{Poser, Solver},
-    target::{Compared, Target, check_alone, targets},
+    target::{Target, check_alone, targets},
     watched::Progress,
 };
 use crate::{
@@ -259,7 +259,8 @@ impl<'p> Plan<'p> {
     }
 }
 
-/// Searches the numbers: with one compiled form of each test where full runs agree with it at what was found.
+/// Searches the numbers, in the quickest way to the curve of each test that gives what a run does which is judged, at what
+/// was found as well.
 fn searched(
     (begun, tests): (&[Number], &[Test]),
     settings: NetworkSettings,
@@ -275,36 +276,29 @@ fn searched(
         let bounds = begun.iter().map(|own| [own.low, own.high]);
         let bounds = bounds.chain(test.known.iter().map(around));
         let (starts, bounds): (Vec<f64>, Vec<[f64; 2]>) = (list(starts), list(bounds));
-        match &curve.output {
-            Compared::Output(output) => Some(Solver::new(poser, point, output, &starts, &bounds)),
-            Compared::Alone(_) => None,
-        }
+        Solver::new(poser, point, &curve.output, &starts, &bounds)
     });
-    let solvers: Vec<Option<Solver<'_>>> = list(solvers);
-    let model = |test: usize, values: &[f64]| match (&solvers[test], &curves[test].1.output) {
-        (None, Compared::Alone(own)) => own.curve(&posers[test], values),
-        (Some(own), _) => own.curve(values),
-        (None, Compared::Output(own)) => Err(format!("`{}` has no run", own.key())),
-    };
+    let solvers: Vec<Solver<'_>> = list(solvers);
     let model = |test: usize, values: &[f64]| {
         evaluated.count.fetch_add(1, Ordering::Relaxed);
         let missed =
             |why: &String| evaluated.misses.note(values.to_vec(), Cause::scene(why.clone()));
-        model(test, values).inspect_err(missed)
+        solvers[test].curve(values).inspect_err(missed)
     };
-    let watch = |own: Search| progress.show(own);
-    let found = fit_watched(begun, tests, settings, &model, &watch)?;
-    if found.is_stopped {
-        return Ok(found);
+    let watch = |own: Search| progress.show(own, evaluated.count.load(Ordering::Relaxed));
+    loop {
+        let found = fit_watched(begun, tests, settings, &model, &watch)?;
+        let is_alike = |(at, own): (usize, &Solver<'_>)| {
+            let values = found.numbers.iter().map(|own| own.value);
+            let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
+            own.agrees(&values)
+        };
+        // All are asked: each that does not agree goes on in a slower way.
+        let each = solvers.iter().enumerate().filter(|_| !found.is_stopped);
+        if each.filter(|own| !is_alike(*own)).count() == 0 {
+            return Ok(found);
+        }
     }
-    let is_alike = |(at, own): (usize, &Option<Solver<'_>>)| {
-        let values = found.numbers.iter().map(|own| own.value);
-        let values: Vec<f64> = list(values.chain(found.tests[at].known.iter().copied()));
-        own.as_ref().is_none_or(|own| own.agrees(&values))
-    };
-    // All are asked: each that does not agree goes on with full runs.
-    let unlike = solvers.iter().enumerate().filter(|own| !is_alike(*own)).count();
-    if unlike == 0 { Ok(found) } else { fit_watched(begun, tests, settings, &model, &watch) }
 }
 
 /// Within which values a number that was measured besides is looked for.

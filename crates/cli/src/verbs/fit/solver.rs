@@ -1,32 +1,32 @@
-//! What solves the scene of a test for given numbers: contact forces of one compiled form where that agrees with full
-//! runs, else full runs.
+//! What solves the scene of a test for given numbers: contact forces of one compiled form, or single signals, where those
+//! agree with runs that are judged, else those.
 
 use std::sync::{
-    Arc, Mutex, PoisonError,
-    atomic::{AtomicBool, Ordering},
+    Arc,
+    atomic::{AtomicU8, Ordering},
 };
 
 use dashpot_analysis::{
-    Solve as _,
+    RunError, Solve as _, solve_signals,
     sweep::{ContactForce, ContactForces, PoseAt, ScenePoint},
 };
+use dashpot_dae::Silent;
 use dashpot_fit::network::Curve;
 use dashpot_plot::Of;
 use dashpot_scene::{NamedModel, Posed, Tunables, read_named_model};
 
-use super::among::Replaced;
+use super::{among::Replaced, target::Compared};
 use crate::{
     input::Input,
     output::list,
     varied::{Varied, messages, point, posed},
-    verbs::run::{beside::Output, recorded::Recorded},
+    verbs::run::recorded::Recorded,
 };
 
-/// Tolerance of runs by stepping methods.
+/// Tolerance of runs by stepping methods: slopes are differences over 4e-4 of a number, which it makes good to a few
+/// millionths of a peak. That is more than steps of a search or intervals need, and what exact records leave.
 pub(super) const RTOL: f64 = 1e-9;
-/// Runs that are kept for each test, because they are asked for again.
-const KEPT: usize = 4;
-/// Forces of one form may differ from full runs by this part of the peak.
+/// What is solved in a quicker way may differ by this part of the peak.
 const ALIKE: f64 = 1e-6;
 /// Places at which they are compared.
 const LOOKS: usize = 200;
@@ -72,36 +72,40 @@ impl Poser<'_> {
     pub(super) fn point(&self, values: &[f64]) -> Solved<ScenePoint> {
         let mut point = point(self.posed(values)?, None)?;
         point.settings.estimate = false;
+        point.settings.accuracy.neglect_below = None;
         // Differences of runs are taken, which exact ones bear anyhow.
         point.settings.rtol = point.settings.rtol.or(Some(RTOL));
         Ok(point)
     }
 }
 
-/// A run for these numbers.
-type Kept = (Vec<f64>, Arc<Recorded>);
+/// Ways to the curve of a test: contact forces of one form, solutions of which the one signal is read, and those that are
+/// judged by their energy.
+const FORMS: u8 = 0;
+const SIGNALS: u8 = 1;
+const JUDGED: u8 = 2;
 
 /// What solves the scene of a test.
 pub(super) struct Solver<'s> {
     poser: &'s Poser<'s>,
-    output: &'s Output,
+    of: &'s Compared,
     forces: Option<ContactForces<'s>>,
-    /// Whether the forces were found to be those of full runs.
-    is_fast: AtomicBool,
-    /// The last full runs.
-    kept: Mutex<Vec<Kept>>,
+    /// The quickest way that was not found to differ from those that are judged.
+    way: AtomicU8,
 }
 
 impl<'s> Solver<'s> {
-    /// For an output of a scene; its form is taken at a point within bounds, where full runs must agree with it.
+    /// For what a test is compared with; a form is taken at a point within bounds, where what is judged must agree with it.
     pub(super) fn new(
         poser: &'s Poser<'s>,
         point: &'s PoseAt<'s>,
-        output: &'s Output,
+        of: &'s Compared,
         at: &[f64],
         bounds: &[[f64; 2]],
     ) -> Self {
-        let forces = ContactForces::of(point, at, bounds).filter(|own| {
+        let output = if let Compared::Output(own) = of { Some(own) } else { None };
+        let forces = output.and_then(|_| ContactForces::of(point, at, bounds));
+        let forces = forces.zip(output).filter(|(own, output)| {
             let network = point(at).map(|own| own.network);
             network.is_ok_and(|network| match output.of {
                 Of::Force => network.connections()[own.element()].name == output.name(),
@@ -112,64 +116,68 @@ impl<'s> Solver<'s> {
                 _ => false,
             })
         });
-        let kept = Mutex::default();
-        let own = Self { poser, output, forces, is_fast: AtomicBool::new(true), kept };
-        own.agrees(at);
+        let way = AtomicU8::new(if forces.is_some() { FORMS } else { SIGNALS });
+        let own = Self { poser, of, forces: forces.map(|own| own.0), way };
+        if own.forces.is_some() {
+            own.agrees(at);
+        }
         own
     }
 
-    /// Whether forces of one form are those of a full run where the numbers have these values; from where they are not
-    /// full runs alone are solved.
+    /// Whether what is solved where the numbers have these values is what one that is judged is; from where it is not, a
+    /// slower way is gone.
     pub(super) fn agrees(&self, values: &[f64]) -> bool {
-        let Some(fast) = self.fast(values) else { return true };
-        let is_alike = self.full(values).is_ok_and(|full| {
-            let (end, peak) = (full.0.end - full.0.zero, full.peak().1.abs());
-            (0..=LOOKS).all(|at| {
-                let time = end * at as f64 / LOOKS as f64;
-                (fast.value(time) - full.value(time)).abs() <= ALIKE * peak
+        let way = self.way.load(Ordering::Relaxed);
+        let judged = self.by(JUDGED, values);
+        let is_alike = |way: &u8| {
+            let both = self.by(*way, values).ok().zip(judged.as_ref().ok());
+            both.is_some_and(|((own, _), (judged, (from, to)))| {
+                let peak = judged.peak().1.abs();
+                (0..=LOOKS).all(|at| {
+                    let time = from + (to - from) * at as f64 / LOOKS as f64;
+                    (own.value(time) - judged.value(time)).abs() <= ALIKE * peak
+                })
             })
-        });
-        if !is_alike {
-            self.is_fast.store(false, Ordering::Relaxed);
-        }
-        is_alike
-    }
-
-    fn fast(&self, values: &[f64]) -> Option<Pushed> {
-        let forces = self.forces.as_ref().filter(|_| self.is_fast.load(Ordering::Relaxed))?;
-        let force = forces.at(values)?;
-        let unit = if self.output.of == Of::Acceleration { force.mass } else { 1.0 };
-        Some(Pushed { force, unit })
+        };
+        let alike = (way..JUDGED).find(is_alike).unwrap_or(JUDGED);
+        self.way.store(alike, Ordering::Relaxed);
+        alike == way
     }
 
     /// The curve of the test where the numbers have these values.
     pub(super) fn curve(&self, values: &[f64]) -> Solved<Box<dyn Curve>> {
-        match self.fast(values) {
-            Some(own) => Ok(Box::new(own)),
-            None => Ok(Box::new(self.full(values)?)),
-        }
+        Ok(self.by(self.way.load(Ordering::Relaxed), values)?.0)
     }
 
-    fn full(&self, values: &[f64]) -> Solved<Shared> {
-        let is_it = |own: &&Kept| {
-            own.0.iter().zip(values).all(|(one, other)| one.to_bits() == other.to_bits())
+    /// The same in one of the ways, and between which times it is known.
+    fn by(&self, way: u8, values: &[f64]) -> Solved<(Box<dyn Curve>, (f64, f64))> {
+        let output = match self.of {
+            Compared::Alone(own) => {
+                let curve = own.curve(self.poser, values, way == JUDGED)?;
+                return Ok((curve, own.span()));
+            }
+            Compared::Output(own) => own,
         };
-        let kept = || self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(own) = kept().iter().find(is_it) {
-            return Ok(Shared(Arc::clone(&own.1)));
+        let force = self.forces.as_ref().filter(|_| way == FORMS).and_then(|own| own.at(values));
+        if let Some(force) = force {
+            let unit = if output.of == Of::Acceleration { force.mass } else { 1.0 };
+            return Ok((Box::new(Pushed { force, unit }), (0.0, 0.0)));
         }
         let ScenePoint { network, mut settings } = self.poser.point(values)?;
         settings.measures.clear();
         settings.limits.clear();
-        let run = network.solve_with(&settings).map_err(|error| error.to_string())?;
-        let lacks = || format!("`{}` is not kept in this run", self.output.key());
-        let own = Arc::new(Recorded::of(&run, self.output).ok_or_else(lacks)?);
-        let mut kept = kept();
-        if kept.len() == KEPT {
-            kept.remove(0);
-        }
-        kept.push((values.to_vec(), Arc::clone(&own)));
-        Ok(Shared(own))
+        let words = |error: RunError| error.to_string();
+        let recorded = if way == JUDGED {
+            Recorded::of(&network.solve_with(&settings).map_err(words)?, output)
+        } else {
+            let assembly = network.compile(settings.duration).map_err(|own| words(own.into()))?;
+            let place = output.place(&assembly).map(|own| own.0);
+            let run = solve_signals(&Arc::new(assembly), &settings, place, &mut Silent);
+            Recorded::of_signals(&run.map_err(words)?, output)
+        };
+        let own = recorded.ok_or_else(|| format!("`{}` is not kept in this run", output.key()))?;
+        let end = own.end - own.zero;
+        Ok((Box::new(own), (0.0, end)))
     }
 }
 
@@ -190,19 +198,15 @@ impl Curve for Pushed {
     }
 }
 
-/// A record that is asked for again.
-struct Shared(Arc<Recorded>);
-
-impl Curve for Shared {
+impl Curve for Recorded {
     fn value(&self, time: f64) -> f64 {
-        self.0.value(time)
+        self.value(time)
     }
 
     fn peak(&self) -> (f64, f64) {
-        let Recorded { signal, zero, end, .. } = &*self.0;
-        let peak = signal.absolute_maximum((0.0, *end));
-        let sides = [signal.left_value(peak.time), signal.value(peak.time)];
+        let peak = self.signal.absolute_maximum((0.0, self.end));
+        let sides = [self.signal.left_value(peak.time), self.signal.value(peak.time)];
         let signed = if sides[0].abs() > sides[1].abs() { sides[0] } else { sides[1] };
-        (peak.time - zero, peak.value.copysign(signed))
+        (peak.time - self.zero, peak.value.copysign(signed))
     }
 }

@@ -27,11 +27,13 @@ impl Progress {
         Self { bar: RefCell::new(Bar::new("fit", 0.0, terminal.error.attended)), tests }
     }
 
-    pub(super) fn show(&self, own: Search) -> ControlFlow<()> {
+    /// Shows a search after so many runs.
+    pub(super) fn show(&self, own: Search, runs: usize) -> ControlFlow<()> {
         if is_interrupted() {
             return ControlFlow::Break(());
         }
-        self.bar.borrow_mut().show(self.share(own), || words(own))
+        let share = self.share(own);
+        self.bar.borrow_mut().show(share, || words(own, (runs, share)))
     }
 
     /// The share that is done, if all starts, the refinement, the intervals and each test that is left out take the
@@ -58,7 +60,7 @@ fn part(steps: usize) -> f64 {
     steps / (steps + HALF)
 }
 
-fn words(own: Search) -> String {
+fn words(own: Search, (runs, share): (usize, f64)) -> String {
     let (steps, cost) = (own.steps, significant(own.cost, 3));
     let what = match own.phase {
         Phase::Start { at, of } => format!("start {} of {of}", at + 1),
@@ -66,7 +68,8 @@ fn words(own: Search) -> String {
         Phase::Certainty => "intervals".to_owned(),
         Phase::LeftOut { at, of } => format!("without test {} of {of}", at + 1),
     };
-    format!("{what}, step {steps}, cost {cost}")
+    let of = if share > 0.0 { significant(runs as f64 / share, 2) } else { "?".to_owned() };
+    format!("{what}, step {steps}, cost {cost}, run {runs} of about {of}")
 }
 
 #[cfg(test)]
@@ -89,5 +92,15 @@ mod tests {
         let all: Vec<f64> = all.collect();
         assert!(all.is_sorted_by(|one, next| one < next), "{all:?}");
         assert!(all[0] == 0.0 && all[all.len() - 1] < 1.0, "{all:?}");
+    }
+
+    #[test]
+    fn a_line_says_which_run_of_about_how_many_is_in_progress() {
+        let search = Search { phase: Phase::Start { at: 1, of: 4 }, steps: 3, cost: 0.5 };
+        assert_eq!(
+            words(search, (30, 0.25)),
+            "start 2 of 4, step 3, cost 0.500, run 30 of about 120"
+        );
+        assert!(words(search, (0, 0.0)).ends_with("run 0 of about ?"));
     }
 }

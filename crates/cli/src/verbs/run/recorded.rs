@@ -1,6 +1,6 @@
 //! Signals of runs as a recorder sees them: on the clock of a record, at rest before the start.
 
-use dashpot_analysis::RunReport;
+use dashpot_analysis::{ContactReport, RunReport, Signals, Solution};
 use dashpot_dae::Signal;
 use dashpot_network::{Assembly, NodeOutputs};
 use dashpot_plot::Of;
@@ -20,14 +20,24 @@ pub(in crate::verbs) struct Recorded {
 impl Recorded {
     /// That of an output; `None` where the run does not keep it.
     pub(in crate::verbs) fn of(run: &RunReport, output: &Output) -> Option<Self> {
-        let (place, sign) = output.place(&run.assembly)?;
-        if !run.trajectory.keeps(&run.assembly.system, place) {
+        Self::read(&run.solution(), &run.contacts, output)
+    }
+
+    /// The same of a solution alone.
+    pub(in crate::verbs) fn of_signals(run: &Signals, output: &Output) -> Option<Self> {
+        Self::read(&run.solution(), &run.contacts(), output)
+    }
+
+    fn read(solution: &Solution<'_>, contacts: &[ContactReport], output: &Output) -> Option<Self> {
+        let (assembly, end) = (solution.assembly(), solution.end());
+        let (place, sign) = output.place(assembly)?;
+        if !solution.trajectory().keeps(&assembly.system, place) {
             return None;
         }
-        let signal = run.solution().signal(place).scaled(sign);
-        let rest = if is_untouched(&run.assembly, output) { 0.0 } else { signal.value(0.0) };
-        let zero = first_touch(run).unwrap_or(0.0);
-        Some(Self { signal, rest, zero, end: run.trajectory.t_end })
+        let signal = solution.signal(place).scaled(sign);
+        let rest = if is_untouched(assembly, output) { 0.0 } else { signal.value(0.0) };
+        let zero = first_touch(contacts, end).unwrap_or(0.0);
+        Some(Self { signal, rest, zero, end })
     }
 
     /// Its value at a time of the record \[s\].

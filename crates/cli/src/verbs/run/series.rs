@@ -25,7 +25,7 @@ const JUMP: f64 = 4e-12;
 /// Forces and deformations of `report` at `count` times of its [`excerpt`], or a few more.
 pub(super) fn curves(report: &RunReport, count: usize) -> RunSeries {
     let (from, to) = excerpt(&report.solution());
-    let origin = first_touch(report).unwrap_or(0.0);
+    let origin = first_touch(&report.contacts, report.trajectory.t_end).unwrap_or(0.0);
     curves_within(report, (from - origin, to - origin), count)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn curves_and_energies<'r>(
 ) -> Vec<RunSeries> {
     let windows = reports.clone().map(|report| {
         let (from, to) = excerpt(&report.solution());
-        let origin = first_touch(report).unwrap_or(0.0);
+        let origin = first_touch(&report.contacts, report.trajectory.t_end).unwrap_or(0.0);
         (from - origin, to - origin)
     });
     let window = windows.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
@@ -44,21 +44,22 @@ pub(super) fn curves_and_energies<'r>(
     reports.map(|report| with_energies(report, window, count)).collect()
 }
 
-/// When the first impactor that falls or flies first touches something \[s\]; `None` where all do from the start.
-pub(in crate::verbs) fn first_touch(report: &RunReport) -> Option<f64> {
+/// When the first impactor that falls or flies first touches something in a run of such a length \[s\]; `None` where all
+/// do from the start.
+pub(super) fn first_touch(contacts: &[ContactReport], length: f64) -> Option<f64> {
     let is_struck = |contact: &&ContactReport| {
         use dashpot_analysis::Contact::{Lasting, Parted, Released};
         matches!(contact.impact.contact, Released | Parted | Lasting)
     };
-    let struck = report.contacts.iter().filter(is_struck);
+    let struck = contacts.iter().filter(is_struck);
     let first = struck.min_by(|one, other| one.impact.start.total_cmp(&other.impact.start))?;
     let start = first.impact.start;
-    (!first.is_glued && start > SAME * report.trajectory.t_end).then_some(start)
+    (!first.is_glued && start > SAME * length).then_some(start)
 }
 
 /// Of a window that counts from the first touch, where there is one.
 fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSeries {
-    let first_touch = first_touch(report);
+    let first_touch = first_touch(&report.contacts, report.trajectory.t_end);
     let origin = first_touch.unwrap_or(0.0);
     let end = report.trajectory.t_end;
     let window = ((window.0 + origin).max(0.0), (window.1 + origin).min(end));

@@ -1,6 +1,7 @@
-use std::cell::RefCell;
+use std::{cell::RefCell, sync::Mutex};
 
 use super::*;
+use crate::{network::residuals::Task, optimum::Residuals as _};
 
 fn fitted(most: usize) -> (NetworkFit, Vec<Search>) {
     let seen = RefCell::new(Vec::new());
@@ -53,4 +54,22 @@ fn a_search_that_is_ended_gives_the_best_so_far() {
         assert!(rms <= last && rms >= 0.99 * whole.tests[0].rms, "{most}: {rms}");
         last = rms;
     }
+}
+
+#[test]
+fn nothing_is_solved_again_where_it_has_just_been() {
+    let asked = Mutex::new([0; 2]);
+    let tests = [test(1, 5.0), test(2, 5.0)];
+    let model = |test: usize, own: &[f64]| {
+        asked.lock().unwrap()[test] += 1;
+        Ok(pulse(own))
+    };
+    let numbers = numbers();
+    let task = Task::new(&numbers, &tests, &model).ok().unwrap();
+    let start = task.begin(&TRUE).unwrap();
+    *asked.lock().unwrap() = [0; 2];
+    task.residual(&start);
+    task.jacobian(&start);
+    // There at most, and to either side of each number.
+    assert!(asked.lock().unwrap().iter().all(|own| *own <= 5), "{asked:?}");
 }
