@@ -1,10 +1,9 @@
 //! Points of a sweep whose errors are known from points near them.
 
-use std::collections::BTreeMap;
-
 use super::{
     Row,
     full::{Flaws, Full},
+    thinned::Thinned,
 };
 use crate::{Choice, RunReport, SolveSettings, Warning};
 
@@ -42,18 +41,13 @@ impl Default for SweepOptions {
     }
 }
 
-/// Fewer points of a part are not worth it.
-const FEWEST: usize = 6;
 /// The tolerance of points whose errors are not estimated, in parts of that of those whose are.
 const TIGHTER: f64 = 0.25;
 /// Relative errors within a group may differ by this factor.
 const ALIKE: f64 = 30.0;
 
-/// Points of a group whose errors are estimated, by their places.
-type Solved = BTreeMap<usize, Option<RunReport>>;
-
 /// What is known of a group of points, or a part of one.
-struct Known {
+pub(super) struct Known {
     method: &'static str,
     rtol: f64,
     /// For each column the largest error relative to its value.
@@ -62,70 +56,9 @@ struct Known {
 }
 
 impl Full<'_> {
-    /// Solves the points of a group; how many of them have their errors estimated.
-    pub(super) fn group(&self, mut rows: Vec<&mut Row<'_>>, estimates: Estimates) -> usize {
-        let mut solved = Solved::new();
-        let mut parts: Vec<(usize, usize)> =
-            rows.len().checked_sub(1).map(|last| (0, last)).into_iter().collect();
-        while let Some((first, last)) = parts.pop() {
-            let middle = (first + last).div_ceil(2);
-            let is_spared = estimates == Estimates::Some && last - first + 1 >= FEWEST;
-            let known =
-                is_spared.then(|| self.agreed([first, middle, last], &mut solved, &mut rows));
-            if let Some(None) = known {
-                parts.extend([(middle, last), (first, middle)]);
-                continue;
-            }
-            for (at, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
-                if solved.contains_key(&at) {
-                    continue;
-                }
-                let known = known.as_ref().and_then(Option::as_ref);
-                let spared =
-                    known.and_then(|known| self.spared(known, row.point, row.values, row.errors));
-                match spared {
-                    Some((warnings, cut)) => (row.warnings, row.flaws.cut) = (warnings, cut),
-                    None => {
-                        solved.insert(at, self.estimated(row));
-                    }
-                }
-            }
-        }
-        let is_estimated = |run: &&RunReport| run.solver.solves_for_error > 0;
-        solved.values().flatten().filter(is_estimated).count()
-    }
-
-    /// What three points of a part agree in, if they do; those that are not solved yet are.
-    fn agreed(
-        &self,
-        anchors: [usize; 3],
-        solved: &mut Solved,
-        rows: &mut [&mut Row<'_>],
-    ) -> Option<Known> {
-        for at in anchors {
-            solved.entry(at).or_insert_with(|| self.estimated(rows[at]));
-        }
-        let reports = anchors.map(|at| solved.get(&at).and_then(Option::as_ref));
-        // The one in the middle is the test.
-        self.known(&anchors, &reports, rows).filter(|known| {
-            let row = &rows[anchors[1]];
-            let (mut values, mut errors) = (row.values.to_vec(), row.errors.to_vec());
-            let is_taken = self.spared(known, row.point, &mut values, &mut errors).is_some();
-            let within =
-                |at: usize| (values[at] - row.values[at]).abs() <= row.errors[at].max(errors[at]);
-            is_taken && (0..values.len()).all(within)
-        })
-    }
-
     /// What these points agree in, if they do.
-    fn known(
-        &self,
-        anchors: &[usize],
-        reports: &[Option<&RunReport>],
-        rows: &[&mut Row<'_>],
-    ) -> Option<Known> {
-        let reports: Vec<&RunReport> = reports.iter().copied().collect::<Option<_>>()?;
-        let first = *reports.first()?;
+    fn known(&self, reports: [&RunReport; 3], rows: [&Row<'_>; 3]) -> Option<Known> {
+        let [first, ..] = reports;
         let warnings = first.warnings.clone();
         let is_alike = |own: &&RunReport| {
             own.segmentation.is_none()
@@ -139,8 +72,7 @@ impl Full<'_> {
             reports.iter().map(|own| own.solver.rtol.filter(|_| own.solver.solves_for_error > 0));
         let rtol = rtols.collect::<Option<Vec<f64>>>()?.into_iter().fold(f64::INFINITY, f64::min);
         let relative = |column: usize| {
-            let all =
-                anchors.iter().map(|&at| rows[at].errors[column] / rows[at].values[column].abs());
+            let all = rows.iter().map(|row| row.errors[column] / row.values[column].abs());
             let all = all.map(|own| Some(own).filter(|own| own.is_finite()));
             let all = all.collect::<Option<Vec<f64>>>()?;
             let (least, most) = all.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), own| {
@@ -154,21 +86,21 @@ impl Full<'_> {
 
     /// Solves a point once, and returns what the run is warned of, and which columns its end cuts off; `None`
     /// where it is of another kind than those that are known.
-    fn spared(
+    fn once(
         &self,
         known: &Known,
         point: usize,
         values: &mut [f64],
         errors: &mut [f64],
     ) -> Option<(Vec<Warning>, Vec<usize>)> {
-        let once = |settings: &mut SolveSettings| {
+        let change = |settings: &mut SolveSettings| {
             settings.estimate = false;
             settings.rtol = Some((TIGHTER * known.rtol).max(1e-13));
             if let Ok(method) = Choice::named(known.method) {
                 settings.method = method;
             }
         };
-        let report = self.solved(point, once).ok()?;
+        let report = self.run(point, change).ok()?;
         if !are_alike(&report.warnings, &known.warnings) {
             return None;
         }
@@ -182,12 +114,35 @@ impl Full<'_> {
         }
         Some((report.warnings, flaws.cut))
     }
+}
+
+impl Thinned for Full<'_> {
+    type Solved = RunReport;
+    type Known = Known;
 
     /// Solves a point as it is asked for, and writes what was found.
-    fn estimated(&self, row: &mut Row<'_>) -> Option<RunReport> {
+    fn solved(&mut self, row: &mut Row<'_>) -> Option<RunReport> {
         let report = self.write(row.point, row.values, row.errors, &mut row.flaws, |_| {});
         row.warnings = report.as_ref().map_or(Vec::new(), |own| own.warnings.clone());
         report
+    }
+
+    fn agreed(&mut self, reports: [&RunReport; 3], rows: [&Row<'_>; 3]) -> Option<Known> {
+        // The one in the middle is the test.
+        self.known(reports, rows).filter(|known| {
+            let row = rows[1];
+            let (mut values, mut errors) = (row.values.to_vec(), row.errors.to_vec());
+            let is_taken = self.once(known, row.point, &mut values, &mut errors).is_some();
+            let within =
+                |at: usize| (values[at] - row.values[at]).abs() <= row.errors[at].max(errors[at]);
+            is_taken && (0..values.len()).all(within)
+        })
+    }
+
+    fn spared(&mut self, known: &Known, row: &mut Row<'_>) -> Option<()> {
+        let (warnings, cut) = self.once(known, row.point, row.values, row.errors)?;
+        (row.warnings, row.flaws.cut) = (warnings, cut);
+        Some(())
     }
 }
 

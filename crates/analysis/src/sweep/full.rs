@@ -26,7 +26,7 @@ pub(super) struct Full<'f> {
 
 impl Full<'_> {
     /// The run at a point, with its settings changed.
-    pub(super) fn solved(
+    pub(super) fn run(
         &self,
         point: usize,
         change: impl Fn(&mut SolveSettings),
@@ -48,7 +48,7 @@ impl Full<'_> {
     ) -> Option<RunReport> {
         values.fill(f64::NAN);
         errors.fill(f64::NAN);
-        match self.solved(point, change) {
+        match self.run(point, change) {
             Ok(report) => {
                 self.read(&report, point, values, errors, flaws);
                 Some(report)

@@ -19,9 +19,9 @@ use crate::measures::selection::select;
 pub(super) struct Plan<'g> {
     pub(super) grid: &'g Grid,
     pub(super) parametric: ParametricSystem,
-    /// What becomes of the pad once it has let go what struck it, where that has to be looked at: laws are not linear, and
+    /// Whether what becomes of the pad once it has let go what struck it has to be looked at: laws are not linear, and
     /// other masses may throw back what has left, or a measure reaches beyond the impact.
-    pub(super) released: Option<ParametricSystem>,
+    pub(super) is_parting: bool,
     /// The element that is struck.
     element: String,
     pub(super) table: Table,
@@ -80,12 +80,12 @@ impl<'g> Plan<'g> {
             let own = shown_by(own, &parametric, &mut wanted)?;
             shown.push(if column.is_share { Shown::Share } else { own });
         }
-        let is_parting = !parametric.is_linear() && parametric.opens();
-        let released = if is_parting && (wanted.work_at_end || parametric.masses() > 1) {
-            Some(parametric.released().filter(|own| own.states() <= MOST_STATES)?)
-        } else {
-            None
-        };
+        let is_parting = !parametric.is_linear()
+            && parametric.opens()
+            && (wanted.work_at_end || parametric.masses() > 1);
+        if is_parting && !parametric.parts() {
+            return None;
+        }
         // Other masses may make the force dip, and what is known of neighbours tells little of a point near that.
         let has_dips = !parametric.is_linear() && parametric.masses() > 1;
         let estimates = match estimates {
@@ -98,7 +98,7 @@ impl<'g> Plan<'g> {
         Some(Self {
             grid,
             parametric,
-            released,
+            is_parting,
             element,
             table,
             shown,
@@ -128,8 +128,7 @@ impl<'g> Plan<'g> {
 
     /// What solves points; one for each thread.
     pub(super) fn stamper(&self) -> Option<Box<dyn Stamper + '_>> {
-        let states = self.released.as_ref().map_or(0, ParametricSystem::states);
-        match states.max(self.parametric.states()) {
+        match self.parametric.states() {
             0..=2 => self.sized::<2>(),
             3..=4 => self.sized::<4>(),
             5..=6 => self.sized::<6>(),

@@ -30,6 +30,7 @@ mod stamper;
 mod stopped;
 mod sums;
 mod table;
+mod thinned;
 
 #[cfg(test)]
 mod tests;

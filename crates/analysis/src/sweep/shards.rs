@@ -17,8 +17,9 @@ use super::{
     instantiated::Plan,
     parallel::{GROUP, share},
     report::{self, Kinds},
+    thinned::Thinned,
 };
-use crate::{Limit, Warning};
+use crate::{Limit, RunReport, Warning};
 
 /// What the points of one shard of a sweep yield. Its values and errors are no part of its serialised form.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -268,11 +269,12 @@ impl Ready<'_> {
                 if let Some(stamper) = stamper {
                     estimated.fetch_add(stamper.group(rows), Ordering::Relaxed);
                 }
-                let others: Vec<&mut Row<'_>> =
+                let mut others: Vec<&mut Row<'_>> =
                     rows.iter_mut().filter(|row| row.notice.is_none()).collect();
-                if !others.is_empty() {
-                    estimated.fetch_add(self.full.group(others, estimates), Ordering::Relaxed);
-                }
+                let solved = { self.full }.thin(&mut others, estimates);
+                let is_estimated = |run: &&RunReport| run.solver.solves_for_error > 0;
+                let count = solved.iter().filter(is_estimated).count();
+                estimated.fetch_add(count, Ordering::Relaxed);
             },
             watch,
         );

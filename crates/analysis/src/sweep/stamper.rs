@@ -1,27 +1,24 @@
 //! Points that are instantiated, one after the other.
 
-use std::collections::BTreeMap;
-
 use dashpot_network::Instance;
 
 use super::{
     Estimates, Row,
     instantiated::Plan,
     plain::{
-        aftermath::{Forms, is_left},
+        aftermath::is_left,
         bars::{self, TOLERANCES, with_bars},
         stepped::{Course, Stepped},
     },
     report::Notice,
     scene_point::{Figure, ScenePoint},
     table::Besides,
+    thinned::Thinned,
 };
 use crate::report::compression::is_as_thick;
 
 /// A value of a linear scene that is less certain than this part of itself is left to the full solution.
 const LOOSEST: f64 = 1e-6;
-/// At least so many points of a part of a group have errors of their own at some only.
-const FEWEST: usize = 6;
 /// The largest of the ratios at three points that holds for those between, in parts of it.
 const BETWEEN: f64 = 3.0;
 
@@ -45,14 +42,10 @@ pub(super) struct Sized<'p, const N: usize> {
     numbers: Vec<f64>,
 }
 
-/// What rows of a group that are solved with their errors have, by their places; `None` where they have to be solved in
-/// full.
-type Solved = BTreeMap<usize, Option<Known>>;
-
 /// The number of a tolerance among [`TOLERANCES`], and the largest relative error of a solution at the one before, in
 /// parts of what it [estimates by itself](Course::relative_error).
 #[derive(Debug, Clone, Copy)]
-struct Known {
+pub(super) struct Known {
     level: usize,
     ratio: f64,
 }
@@ -76,31 +69,34 @@ impl<const N: usize> Stamper for Sized<'_, N> {
             }
             return 0;
         }
-        let mut solved = Solved::new();
-        let mut parts: Vec<(usize, usize)> =
-            rows.len().checked_sub(1).map(|last| (0, last)).into_iter().collect();
-        while let Some((first, last)) = parts.pop() {
-            let middle = (first + last).div_ceil(2);
-            let is_spared = self.plan.estimates == Estimates::Some && last - first + 1 >= FEWEST;
-            let known = is_spared.then(|| self.agreed([first, middle, last], &mut solved, rows));
-            if let Some(None) = known {
-                parts.extend([(middle, last), (first, middle)]);
-                continue;
-            }
-            for (at, row) in rows.iter_mut().enumerate().take(last + 1).skip(first) {
-                if solved.contains_key(&at) {
-                    continue;
-                }
-                row.notice = known.flatten().and_then(|known| {
-                    self.pose(row.point)?;
-                    self.spared(known, row.values, row.errors)
-                });
-                if row.notice.is_none() {
-                    solved.insert(at, self.solved(row));
-                }
-            }
-        }
-        solved.values().flatten().count()
+        self.thin(rows, self.plan.estimates).len()
+    }
+}
+
+impl<const N: usize> Thinned for Sized<'_, N> {
+    type Solved = Known;
+    type Known = Known;
+
+    fn solved(&mut self, row: &mut Row<'_>) -> Option<Known> {
+        self.pose(row.point)?;
+        let (notice, known) = self.estimated(row.values, row.errors)?;
+        row.notice = Some(notice);
+        Some(known)
+    }
+
+    fn agreed(&mut self, solved: [&Known; 3], _: [&Row<'_>; 3]) -> Option<Known> {
+        let level = solved.iter().map(|own| own.level).max()?;
+        Some(Known { level, ratio: solved.iter().map(|own| own.ratio).fold(0.0, f64::max) })
+    }
+
+    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last, with the
+    /// error that its own steps tell, or more where it was more at those points.
+    fn spared(&mut self, known: &Known, row: &mut Row<'_>) -> Option<()> {
+        self.pose(row.point)?;
+        let factor = f64::max(1.0, BETWEEN * known.ratio);
+        let mut levels = known.level.saturating_sub(1)..=known.level;
+        row.notice = levels.find_map(|level| self.once((level, factor), row.values, row.errors));
+        row.notice.map(|_| ())
     }
 }
 
@@ -123,31 +119,6 @@ impl<'p, const N: usize> Sized<'p, N> {
             && !self.has_thinner_part()
             && plan.parametric.fill(&self.numbers, &mut self.instance);
         is_known.then_some(())
-    }
-
-    /// Solves a row of a group with its errors; `None` where it has to be solved in full.
-    fn solved(&mut self, row: &mut Row<'_>) -> Option<Known> {
-        self.pose(row.point)?;
-        let (notice, known) = self.estimated(row.values, row.errors)?;
-        row.notice = Some(notice);
-        Some(known)
-    }
-
-    /// What holds for the rows between three of a part of a group, where all of these can be instantiated; those that are
-    /// not solved yet are.
-    fn agreed(
-        &mut self,
-        anchors: [usize; 3],
-        solved: &mut Solved,
-        rows: &mut [Row<'_>],
-    ) -> Option<Known> {
-        for at in anchors {
-            solved.entry(at).or_insert_with(|| self.solved(&mut rows[at]));
-        }
-        let all = anchors.iter().map(|at| solved.get(at).copied().flatten());
-        let all = all.collect::<Option<Vec<Known>>>()?;
-        let level = all.iter().map(|own| own.level).max()?;
-        Some(Known { level, ratio: all.iter().map(|own| own.ratio).fold(0.0, f64::max) })
     }
 }
 
@@ -178,14 +149,6 @@ impl<const N: usize> Sized<'_, N> {
         }
         let deepest = (impact.depth, impact.deepest_at * time);
         Some(plan.notice(deepest, impact.release.value * time, &self.numbers))
-    }
-
-    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last, with the
-    /// error that its own steps tell, or more where it was more at those points.
-    fn spared(&self, known: Known, values: &mut [f64], errors: &mut [f64]) -> Option<Notice> {
-        let factor = f64::max(1.0, BETWEEN * known.ratio);
-        let mut levels = known.level.saturating_sub(1)..=known.level;
-        levels.find_map(|level| self.once((level, factor), values, errors))
     }
 
     /// Solves a scene that is not linear once at a tolerance, with errors so many times what its steps tell.
@@ -227,11 +190,9 @@ impl<const N: usize> Sized<'_, N> {
     /// Whether no stop is met, and nothing meets again what has left it, as far as that has to be looked at.
     fn is_plain(&self, course: &Course<N>, rtol: f64) -> bool {
         let Self { plan, instance, numbers, .. } = self;
-        let parts = plan.released.as_ref().is_none_or(|behind| {
-            let forms = Forms { before: (&plan.parametric, instance), behind, numbers };
-            let left = plan.end(numbers) - course.release;
-            is_left(forms, course, (left, rtol))
-        });
+        let left = plan.end(numbers) - course.release;
+        let parts = !plan.is_parting
+            || is_left((&plan.parametric, instance), numbers, course, (left, rtol));
         parts && !Besides::of(numbers).are_stopped(self.depth(course))
     }
 

@@ -12,12 +12,12 @@ use super::{
     expand::Expansion,
     incidence::Incidence,
     laws,
-    motion::{self, Motion},
+    motion::{self, Motion, Numbers},
     nonlinear_forces,
     outputs::Outputs,
     parts::Parts,
     rates, review,
-    row::{Row, RowSum, Rows},
+    row::{Row, RowSum, Rows, Scalar},
     scales::{Drives, Force, Scales},
     structure::Structure,
     system::{self, Scaling},
@@ -49,12 +49,12 @@ pub(super) const DASHPOTS_IN_A_ROW: &str = "dashpots in a row lead from it elsew
                                  give a mass to what is between them, with its own `position`";
 
 /// The graph of a network, and the scales of what moves in it.
-struct Graph<'n> {
-    network: &'n Network,
-    expansion: &'n Expansion,
-    bodies: Bodies,
-    structure: Structure,
-    scales: Scales,
+pub(super) struct Graph<'n> {
+    pub(super) network: &'n Network,
+    pub(super) expansion: &'n Expansion,
+    pub(super) bodies: Bodies,
+    pub(super) structure: Structure,
+    pub(super) scales: Scales,
 }
 
 /// The system of the primitives as they stand in `expansion`; none of them switches.
@@ -79,7 +79,16 @@ pub(super) fn assemble(
     sizes.motions.extend(displaced.map(|(body, own)| (body, own.position.abs())));
     let scales = Scales::of(&bodies, &structure, &sizes, duration, expansion.switches)?;
     let graph = Graph { network, expansion, bodies, structure, scales };
-    let (mut places, motion) = graph.equations(&drives, &motions, &mut inputs);
+    let mut loads = vec![RowSum::default(); graph.bodies.all.len()];
+    for drive in &drives {
+        if let Some(force) = &drive.force {
+            loads[drive.body].add(1.0, force);
+        }
+    }
+    let numbers = Numbers { slope: &|edge| edge.constant.into(), mass: &|_, mass| mass.into() };
+    let (mut places, mut motion) = graph.equations(numbers, loads, &motions, &mut inputs);
+    nonlinear_forces::complete(expansion, &motion, &mut places);
+    rates::complete(expansion, graph.scales.time, &mut inputs, &mut places, &mut motion);
     if !expansion.switches {
         graph.start(&drives, &inputs, &mut places)?;
     }
@@ -87,20 +96,16 @@ pub(super) fn assemble(
 }
 
 impl Graph<'_> {
-    /// The unknowns, and the rows that rule them.
-    fn equations(
+    /// The unknowns, and the rows that rule them, under `loads` on the bodies, but for the balances of laws that are not
+    /// linear.
+    pub(super) fn equations<T: Scalar>(
         &self,
-        drives: &[Drive],
-        motions: &BTreeMap<usize, Row>,
+        numbers: Numbers<'_, T>,
+        mut loads: Vec<RowSum<T>>,
+        motions: &BTreeMap<usize, Row<T>>,
         inputs: &mut Inputs,
-    ) -> (Places, Motion) {
+    ) -> (Places<T>, Motion<T>) {
         let Self { network, expansion, bodies, structure, scales } = self;
-        let mut loads = vec![RowSum::default(); bodies.all.len()];
-        for drive in drives {
-            if let Some(force) = &drive.force {
-                loads[drive.body].add(1.0, force);
-            }
-        }
         let mut places =
             unknowns::choose(network, expansion, bodies, structure, scales, motions, inputs);
         let nonlinear = nonlinear_forces::add(
@@ -113,6 +118,7 @@ impl Graph<'_> {
             &mut loads,
         );
         let given = motion::Given {
+            numbers,
             primitives: &expansion.primitives,
             nonlinear: &nonlinear,
             bodies,
@@ -120,10 +126,7 @@ impl Graph<'_> {
             scales,
             names: &|body| joint_name(network, expansion, bodies.all[body].joints[0]),
         };
-        let mut motion = motion::build(&given, loads, inputs, &mut places);
-        drop(nonlinear);
-        nonlinear_forces::complete(expansion, &motion, &mut places);
-        rates::complete(expansion, scales.time, inputs, &mut places, &mut motion);
+        let motion = motion::build(&given, loads, inputs, &mut places);
         (places, motion)
     }
 

@@ -6,16 +6,17 @@ use dashpot_dae::UnknownKind;
 
 use super::{
     mesh::{Mesh, Solution},
-    row::{Row, RowSum, Rows},
+    motion::Numbers,
+    row::{Row, RowSum, Rows, Scalar},
     structure::Structure,
     unknowns::{Draft, Places},
 };
 
 /// Velocities of the massless bodies that dashpots hold.
-pub(super) struct DashpotBalance<'a> {
+pub(super) struct DashpotBalance<'a, T> {
     structure: &'a Structure,
     ends: Ends,
-    solution: Solution<Row>,
+    solution: Solution<Row<T>>,
 }
 
 /// The mesh's numbers: bodies in clusters, and for each cluster its own copy of each anchor,
@@ -45,25 +46,25 @@ impl Ends {
     }
 }
 
-impl<'a> DashpotBalance<'a> {
+impl<'a, T: Scalar> DashpotBalance<'a, T> {
     /// Solves the balances under the forces `net` of springs and loads; the velocities in clusters
     /// of more than `most_bodies` become algebraic unknowns.
     pub(super) fn solve(
         structure: &'a Structure,
-        net: &[RowSum],
-        velocity: &Rows,
+        numbers: &Numbers<'_, T>,
+        (net, velocity): (&[RowSum<T>], &Rows<T>),
         most_bodies: usize,
-        places: &mut Places,
+        places: &mut Places<T>,
         draft: impl Fn(usize) -> (String, f64),
     ) -> Self {
         let ends = Ends::of(structure);
         if structure.clusters.is_empty() {
             return Self { structure, ends, solution: Solution::default() };
         }
-        let mut mesh = Mesh::<Row>::new(net.len() + ends.anchors.len());
+        let mut mesh = Mesh::<Row<T>>::new(net.len() + ends.anchors.len());
         for dashpot in &structure.dashpots {
             if let Some([p, q]) = ends.numbers(structure, dashpot.ends) {
-                mesh.link(p, q, dashpot.constant, &Row::default());
+                mesh.link(p, q, (numbers.slope)(dashpot), &Row::default());
             }
         }
         let mut values = vec![Row::default(); net.len() + ends.anchors.len()];
@@ -89,7 +90,7 @@ impl<'a> DashpotBalance<'a> {
             let mut balance = RowSum::default();
             balance.add(1.0, mesh.load_at(body));
             for (other, link) in mesh.links(body) {
-                balance.add(-link.conductance, &values[body]);
+                balance.add(link.conductance * -1.0, &values[body]);
                 balance.add(link.conductance, &values[other]);
             }
             let (name, scale) = draft(body);
@@ -109,17 +110,17 @@ impl<'a> DashpotBalance<'a> {
 
     /// Velocity of a body in a cluster, relative to the cluster's anchor if it has one only, and to
     /// its first body if it has none.
-    pub(super) fn velocity(&self, body: usize) -> &Row {
+    pub(super) fn velocity(&self, body: usize) -> &Row<T> {
         self.solution.value(body)
     }
 
     /// Difference of the velocities of two bodies in one cluster.
-    pub(super) fn difference(&self, p: usize, q: usize) -> Row {
+    pub(super) fn difference(&self, p: usize, q: usize) -> Row<T> {
         self.solution.difference(p, q)
     }
 
     /// Deformation rate of a dashpot, one end of which is in a cluster.
-    pub(super) fn rate(&self, ends: [usize; 2]) -> Option<Row> {
+    pub(super) fn rate(&self, ends: [usize; 2]) -> Option<Row<T>> {
         let [p, q] = self.ends.numbers(self.structure, ends)?;
         Some(self.solution.difference(p, q))
     }

@@ -6,35 +6,35 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use dashpot_numerics::DoubleDouble;
+use dashpot_numerics::Coefficient;
 
 use super::row::Combination;
 
 /// Places and the links between them.
-#[derive(Debug, Clone)]
-pub(super) struct Mesh<R> {
+#[derive(Clone)]
+pub(super) struct Mesh<R: Combination> {
     neighbours: Vec<BTreeMap<usize, Link<R>>>,
     loads: Vec<R>,
 }
 
 /// A link as seen from one of its ends.
-#[derive(Debug, Clone)]
-pub(super) struct Link<R> {
-    pub(super) conductance: DoubleDouble,
+#[derive(Clone)]
+pub(super) struct Link<R: Combination> {
+    pub(super) conductance: R::Factor,
     pub(super) offset: R,
 }
 
 /// One eliminated place: `X = Σ weight (X_q − offset) + load / total`.
-#[derive(Debug, Clone)]
-struct Step<R> {
+#[derive(Clone)]
+struct Step<R: Combination> {
     place: usize,
-    star: Vec<(usize, DoubleDouble, R)>,
+    star: Vec<(usize, R::Factor, R)>,
     share: R,
 }
 
 /// The order of elimination, ready for back-substitution.
-#[derive(Debug, Clone)]
-pub(super) struct Eliminated<R> {
+#[derive(Clone)]
+pub(super) struct Eliminated<R: Combination> {
     steps: Vec<Step<R>>,
     /// What is left between the places that were kept.
     pub(super) rest: Mesh<R>,
@@ -52,26 +52,26 @@ impl<R: Combination> Mesh<R> {
         Self { neighbours: vec![BTreeMap::new(); places], loads: vec![R::default(); places] }
     }
 
-    /// Adds a link that carries `conductance · (X_p − X_q + offset)` from `p` to `q`.
+    /// Adds a link that carries `conductance · (X_p − X_q + offset)` from `p` to `q`; one that carries nothing is none.
     pub(super) fn link(
         &mut self,
         p: usize,
         q: usize,
-        conductance: impl Into<DoubleDouble>,
+        conductance: impl Into<R::Factor>,
         offset: &R,
     ) {
-        if p == q {
+        let conductance = conductance.into();
+        if p == q || conductance.rounded() == 0.0 {
             return;
         }
-        let conductance = conductance.into();
         self.half_link(p, q, conductance, offset, 1.0);
         self.half_link(q, p, conductance, offset, -1.0);
     }
 
-    fn half_link(&mut self, p: usize, q: usize, conductance: DoubleDouble, offset: &R, sign: f64) {
+    fn half_link(&mut self, p: usize, q: usize, conductance: R::Factor, offset: &R, sign: f64) {
         let link = self.neighbours[p]
             .entry(q)
-            .or_insert_with(|| Link { conductance: DoubleDouble::ZERO, offset: R::default() });
+            .or_insert_with(|| Link { conductance: R::Factor::default(), offset: R::default() });
         let total = link.conductance + conductance;
         let (old, new) = (link.conductance / total, conductance / total);
         link.offset = R::default().plus(old, &link.offset).plus(new * sign, offset);
@@ -120,9 +120,9 @@ impl<R: Combination> Mesh<R> {
     }
 
     fn star_to_mesh(&mut self, place: usize, star: BTreeMap<usize, Link<R>>) -> Step<R> {
-        let total: DoubleDouble = star.values().map(|link| link.conductance).sum();
+        let total: R::Factor = star.values().map(|link| link.conductance).sum();
         let load = std::mem::take(&mut self.loads[place]);
-        let star: Vec<(usize, DoubleDouble, Link<R>)> =
+        let star: Vec<(usize, R::Factor, Link<R>)> =
             star.into_iter().map(|(q, link)| (q, link.conductance / total, link)).collect();
         for &(q, weight, _) in &star {
             self.neighbours[q].remove(&place);
@@ -134,7 +134,7 @@ impl<R: Combination> Mesh<R> {
                 self.link(*p, *q, *weight * other.conductance, &offset);
             }
         }
-        let share = R::default().plus(total.recip(), &load);
+        let share = R::default().plus(R::Factor::ONE / total, &load);
         Step {
             place,
             star: star.into_iter().map(|(q, w, link)| (q, w, link.offset)).collect(),
@@ -155,10 +155,10 @@ impl<R: Combination> Eliminated<R> {
         for step in self.steps.iter().rev() {
             let mut value = step.share.clone();
             for (q, weight, offset) in &step.star {
-                value = value.plus(*weight, &values[*q]).plus(-*weight, offset);
+                value = value.plus(*weight, &values[*q]).plus(*weight * -1.0, offset);
             }
             for (q, weight, offset) in &step.star {
-                let mut difference = step.share.plus(-*weight, offset);
+                let mut difference = step.share.plus(*weight * -1.0, offset);
                 for (p, other_weight, other_offset) in &step.star {
                     if p == q {
                         continue;
@@ -167,9 +167,9 @@ impl<R: Combination> Eliminated<R> {
                         Some(known) => difference.plus(*other_weight, known),
                         None => difference
                             .plus(*other_weight, &values[*p])
-                            .plus(-*other_weight, &values[*q]),
+                            .plus(*other_weight * -1.0, &values[*q]),
                     }
-                    .plus(-*other_weight, other_offset);
+                    .plus(*other_weight * -1.0, other_offset);
                 }
                 differences.insert((*q, step.place), R::default().plus(-1.0, &difference));
                 differences.insert((step.place, *q), difference);

@@ -7,27 +7,27 @@ use super::{
     bodies::{Bodies, Role},
     dashpots::DashpotBalance,
     expand::Primitive,
-    row::{Combination, Row, RowSum, Rows},
+    row::{Combination, Row, RowSum, Rows, Scalar},
     scales::Scales,
     springs::SpringBalance,
-    structure::Structure,
+    structure::{Edge, Structure},
     unknowns::{Inputs, Places},
 };
 use crate::elements::Law;
 
 /// All that moves and pushes, in SI units.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Motion {
+pub(super) struct Motion<T = DoubleDouble> {
     /// Position of each body.
-    pub(super) position: Rows,
+    pub(super) position: Rows<T>,
     /// Velocity of each body, where it does not depend on the rate of a kept algebraic unknown.
-    pub(super) velocity: Rows,
+    pub(super) velocity: Rows<T>,
     /// Deformation of each primitive that takes part.
-    pub(super) deformation: Rows,
+    pub(super) deformation: Rows<T>,
     /// Deformation rate of each primitive that takes part.
-    pub(super) rate: Rows,
+    pub(super) rate: Rows<T>,
     /// Force of each primitive that takes part.
-    pub(super) force: Rows,
+    pub(super) force: Rows<T>,
 }
 
 /// Up to this many massless bodies in all, every balance is eliminated.
@@ -35,11 +35,20 @@ const SMALL: usize = 200;
 /// Beyond, only places with at most this many links, and clusters of this many bodies, are.
 const MOST_LINKS: usize = 16;
 
+/// The numbers of a network as the coefficients of rows.
+pub(super) struct Numbers<'a, T> {
+    /// The constant of a spring or dashpot.
+    pub(super) slope: &'a dyn Fn(&Edge) -> T,
+    /// The mass of a body, which is this many kilograms.
+    pub(super) mass: &'a dyn Fn(usize, f64) -> T,
+}
+
 /// What the rows are built from.
-pub(super) struct Given<'a> {
+pub(super) struct Given<'a, T> {
+    pub(super) numbers: Numbers<'a, T>,
     pub(super) primitives: &'a [Primitive],
     /// The nonlinear force of each primitive, besides a linear spring's and dashpot's \[N\]; it is among the loads.
-    pub(super) nonlinear: &'a Rows,
+    pub(super) nonlinear: &'a Rows<T>,
     pub(super) bodies: &'a Bodies,
     pub(super) structure: &'a Structure,
     pub(super) scales: &'a Scales,
@@ -48,13 +57,13 @@ pub(super) struct Given<'a> {
 }
 
 /// Builds all rows and completes those of the unknowns; `loads` are the forces on the bodies from outside \[N\].
-pub(super) fn build(
-    given: &Given<'_>,
-    loads: Vec<RowSum>,
+pub(super) fn build<T: Scalar>(
+    given: &Given<'_, T>,
+    loads: Vec<RowSum<T>>,
     inputs: &mut Inputs,
-    places: &mut Places,
-) -> Motion {
-    let Given { nonlinear, bodies, structure, scales, names, .. } = *given;
+    places: &mut Places<T>,
+) -> Motion<T> {
+    let Given { ref numbers, nonlinear, bodies, structure, scales, names, .. } = *given;
     let massless = structure.cluster_of.iter().flatten().count();
     let most = if massless <= SMALL { usize::MAX } else { MOST_LINKS };
     let mut motion = Motion {
@@ -65,7 +74,7 @@ pub(super) fn build(
         force: nonlinear.clone(),
     };
 
-    let springs = SpringBalance::solve(structure, &loads, most, places, inputs, |body| {
+    let springs = SpringBalance::solve(structure, numbers, &loads, most, places, inputs, |body| {
         (names(body), scales.length[body])
     });
     for body in 0..bodies.all.len() {
@@ -75,13 +84,14 @@ pub(super) fn build(
     for spring in &structure.springs {
         let deformation =
             springs.difference(places, spring.ends).plus(1.0, &inputs.constant(spring.offset));
-        let force = deformation.times(spring.constant);
+        let force = deformation.times((numbers.slope)(spring));
         push_apart(&mut net, spring.ends, &force);
         motion.deformation.set(spring.primitive, &deformation);
         add_to(&mut motion.force, spring.primitive, force);
     }
 
-    let dashpots = DashpotBalance::solve(structure, &net, &motion.velocity, most, places, |body| {
+    let known = (net.as_slice(), &motion.velocity);
+    let dashpots = DashpotBalance::solve(structure, numbers, known, most, places, |body| {
         (names(body), scales.velocity[body])
     });
     cluster_velocities(structure, &dashpots, &mut motion);
@@ -90,7 +100,7 @@ pub(super) fn build(
         let rate = dashpots
             .rate(dashpot.ends)
             .unwrap_or_else(|| motion.velocity.row(a).plus(-1.0, &motion.velocity.row(b)));
-        let force = rate.times(dashpot.constant);
+        let force = rate.times((numbers.slope)(dashpot));
         push_apart(&mut net, dashpot.ends, &force);
         let deformation =
             springs.difference(places, dashpot.ends).plus(1.0, &inputs.constant(dashpot.offset));
@@ -98,13 +108,13 @@ pub(super) fn build(
         motion.rate.set(dashpot.primitive, &rate);
         add_to(&mut motion.force, dashpot.primitive, force);
     }
-    unknown_rates(bodies, &net, &dashpots, structure, &motion.velocity, places);
+    unknown_rates(given, &net, &dashpots, &motion.velocity, places);
     derived_rates(structure, inputs, places, &mut motion);
     without_slopes(given, &springs, inputs, places, &mut motion);
     motion
 }
 
-fn add_to(sums: &mut Rows, at: usize, row: Row) {
+fn add_to<T: Scalar>(sums: &mut Rows<T>, at: usize, row: Row<T>) {
     let sum = match sums.get(at) {
         Some(sum) => sum.plus(1.0, &row),
         None => row,
@@ -113,12 +123,12 @@ fn add_to(sums: &mut Rows, at: usize, row: Row) {
 }
 
 /// How primitives without a slope are deformed: constant forces and laws that are not linear.
-fn without_slopes(
-    given: &Given<'_>,
-    springs: &SpringBalance<'_>,
+fn without_slopes<T: Scalar>(
+    given: &Given<'_, T>,
+    springs: &SpringBalance<'_, T>,
     inputs: &mut Inputs,
-    places: &Places,
-    motion: &mut Motion,
+    places: &Places<T>,
+    motion: &mut Motion<T>,
 ) {
     for (at, primitive) in given.primitives.iter().enumerate() {
         if motion.deformation.has(at) {
@@ -151,12 +161,16 @@ fn without_slopes(
     }
 }
 
-fn push_apart(net: &mut [RowSum], [a, b]: [usize; 2], force: &Row) {
+fn push_apart<T: Scalar>(net: &mut [RowSum<T>], [a, b]: [usize; 2], force: &Row<T>) {
     net[a].add(-1.0, force);
     net[b].add(1.0, force);
 }
 
-fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Rows {
+fn known_velocities<T: Scalar>(
+    bodies: &Bodies,
+    places: &Places<T>,
+    inputs: &mut Inputs,
+) -> Rows<T> {
     let mut velocities = Rows::default();
     for (at, body) in bodies.all.iter().enumerate() {
         let known = match body.role {
@@ -173,7 +187,11 @@ fn known_velocities(bodies: &Bodies, places: &Places, inputs: &mut Inputs) -> Ro
 }
 
 /// Velocities of the bodies that dashpots tie to an anchor.
-fn cluster_velocities(structure: &Structure, dashpots: &DashpotBalance<'_>, motion: &mut Motion) {
+fn cluster_velocities<T: Scalar>(
+    structure: &Structure,
+    dashpots: &DashpotBalance<'_, T>,
+    motion: &mut Motion<T>,
+) {
     for (at, cluster) in structure.clusters.iter().enumerate() {
         if structure.is_algebraic(at) {
             continue;
@@ -193,17 +211,16 @@ fn cluster_velocities(structure: &Structure, dashpots: &DashpotBalance<'_>, moti
 }
 
 /// Completes the rates of positions and velocities.
-fn unknown_rates(
-    bodies: &Bodies,
-    net: &[RowSum],
-    dashpots: &DashpotBalance<'_>,
-    structure: &Structure,
-    velocity: &Rows,
-    places: &mut Places,
+fn unknown_rates<T: Scalar>(
+    Given { numbers, bodies, structure, .. }: &Given<'_, T>,
+    net: &[RowSum<T>],
+    dashpots: &DashpotBalance<'_, T>,
+    velocity: &Rows<T>,
+    places: &mut Places<T>,
 ) {
     let of = |body: usize| velocity.row(body);
     let acceleration = |body: usize| match bodies.all[body].role {
-        Role::Mass(mass) => net[body].total().times(DoubleDouble::ONE / mass),
+        Role::Mass(mass) => net[body].total().times(T::ONE / (numbers.mass)(body, mass)),
         _ => Row::default(),
     };
     for at in 0..bodies.all.len() {
@@ -234,8 +251,13 @@ fn unknown_rates(
 }
 
 /// Rates of what follows from balances of springs, by differentiation.
-fn derived_rates(structure: &Structure, inputs: &mut Inputs, places: &Places, motion: &mut Motion) {
-    let mut rate_of = |row: &Row| {
+fn derived_rates<T: Scalar>(
+    structure: &Structure,
+    inputs: &mut Inputs,
+    places: &Places<T>,
+    motion: &mut Motion<T>,
+) {
+    let mut rate_of = |row: &Row<T>| {
         let mut sum = RowSum::default();
         for &(unknown, coefficient) in row.unknowns.terms() {
             if places.drafts[unknown].kind == UnknownKind::Algebraic {

@@ -14,22 +14,22 @@ use super::{
     bodies::Bodies,
     expand::{Expansion, Primitive},
     motion::Motion,
-    row::{Combination, Row, RowSum, Rows},
+    row::{Combination, Row, RowSum, Rows, Scalar},
     scales::{Scales, power_of_two},
     structure::Structure,
     unknowns::{Draft, Inputs, Law, Places},
 };
 
 /// Adds the unknowns `φ` to `places` and all nonlinear forces to `loads`; returns that of each primitive that has one.
-pub(super) fn add(
+pub(super) fn add<T: Scalar>(
     expansion: &Expansion,
     bodies: &Bodies,
     structure: &Structure,
     scales: &Scales,
     inputs: &mut Inputs,
-    places: &mut Places,
-    loads: &mut [RowSum],
-) -> Rows {
+    places: &mut Places<T>,
+    loads: &mut [RowSum<T>],
+) -> Rows<T> {
     let mut nonlinear = Rows::default();
     for (at, primitive) in expansion.primitives.iter().enumerate() {
         let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);

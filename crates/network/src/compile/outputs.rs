@@ -6,9 +6,10 @@ use super::{
     accelerometers::Accelerometers,
     constraint_forces::rigid_forces,
     drives::Drive,
-    expand::Shape,
+    expand::{Primitive, Shape},
+    motion::Motion,
     parts::Parts,
-    row::{Combination, Row, RowSum},
+    row::{Combination, Row, RowSum, Scalar},
     system::Scaling,
 };
 use crate::{
@@ -143,7 +144,7 @@ impl<'s> Outputs<'s> {
             };
             let name = &connection.name;
             let ends = connection.between.map(|id| parts.bodies.of_joint[id.0]);
-            let forces = composed(shapes, &force, &softest(parts));
+            let forces = composed(shapes, &force, &softest(primitives, parts.motion));
             let is_placed = |body: usize| parts.structure.algebraic_cluster(body).is_none();
             let [a, b] = ends;
             let position = if ends.iter().all(|&end| is_placed(end)) || parts.expansion.switches {
@@ -314,12 +315,12 @@ fn held_force(parts: &Parts<'_>, drive: &Drive) -> Row {
 
 /// Combines the rows of the parts from the leaves to the root, one for each shape: in parallel they
 /// are added, in series the one that `prefer` ranks lowest stands for all.
-fn composed(
+pub(super) fn composed<T: Scalar>(
     shapes: &[Shape],
-    row: &impl Fn(usize) -> Option<Row>,
+    row: &impl Fn(usize) -> Option<Row<T>>,
     prefer: &impl Fn(usize) -> f64,
-) -> Vec<Option<Row>> {
-    let mut found: Vec<(Option<Row>, f64)> = vec![(None, f64::INFINITY); shapes.len()];
+) -> Vec<Option<Row<T>>> {
+    let mut found: Vec<(Option<Row<T>>, f64)> = vec![(None, f64::INFINITY); shapes.len()];
     for (at, shape) in shapes.iter().enumerate().rev() {
         found[at] = match shape {
             Shape::Leaf(primitive) => (row(*primitive), prefer(*primitive)),
@@ -333,7 +334,7 @@ fn composed(
                 children.first().map_or((None, f64::INFINITY), |&child| found[child].clone())
             }
             Shape::Parallel(children) => {
-                let rows: Option<Vec<&Row>> =
+                let rows: Option<Vec<&Row<T>>> =
                     children.iter().map(|&child| found[child].0.as_ref()).collect();
                 let rank = children.iter().map(|&child| found[child].1).fold(0.0, f64::max);
                 (rows.map(|rows| total(&rows)), rank)
@@ -360,7 +361,7 @@ fn summed(shapes: &[Shape], row: &impl Fn(usize) -> Option<Row>) -> Option<Row> 
     found.swap_remove(0)
 }
 
-pub(super) fn total(rows: &[&Row]) -> Row {
+pub(super) fn total<T: Scalar>(rows: &[&Row<T>]) -> Row<T> {
     let mut sum = RowSum::default();
     rows.iter().for_each(|row| sum.add(1.0, row));
     sum.total()
@@ -368,10 +369,13 @@ pub(super) fn total(rows: &[&Row]) -> Row {
 
 /// Rank of a primitive whose force is to stand for a series: what takes no part first (then the
 /// force is zero), springs by stiffness, dashpots behind them, rigid links last.
-fn softest(parts: &Parts<'_>) -> impl Fn(usize) -> f64 {
-    move |at: usize| match parts.expansion.primitives[at].law {
+pub(super) fn softest<T: Scalar>(
+    primitives: &[Primitive],
+    motion: &Motion<T>,
+) -> impl Fn(usize) -> f64 {
+    move |at: usize| match primitives[at].law {
         Law::Rigid => f64::INFINITY,
-        _ if !parts.motion.force.has(at) => -1.0,
+        _ if !motion.force.has(at) => -1.0,
         Law::Spring(stiffness) => stiffness,
         Law::Nonlinear { stiffness, .. } if stiffness > 0.0 => stiffness,
         _ => f64::MAX,

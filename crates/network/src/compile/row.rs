@@ -1,19 +1,29 @@
 //! Quantities as linear combinations of unknowns and inputs.
 
-use dashpot_numerics::{DoubleDouble, LinearForm, packed};
+use std::ops::Div;
 
-/// Of the small rest of large terms: of a spring in parallel with the fastest dashpot of a chain only what
-/// the other dashpots give way to is left.
-type Form = LinearForm<DoubleDouble>;
+use dashpot_numerics::{Coefficient, DoubleDouble, LinearForm, packed};
+
+/// What rows are made of: numbers of twice the digits of a double, of which the small rest of large terms keeps its
+/// own, or [traced](super::parametric) ones. Of a spring in parallel with the fastest dashpot of a chain only what the other
+/// dashpots give way to is left.
+pub(super) trait Scalar: Coefficient + From<f64> + Div<Output = Self> {}
+
+impl<T: Coefficient + From<f64> + Div<Output = T>> Scalar for T {}
 
 /// What can be scaled and added: numbers and [`Row`]s.
 pub(super) trait Combination: Clone + Default {
+    /// What it is scaled by.
+    type Factor: Scalar;
+
     /// `self + factor · other`.
     #[must_use]
-    fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self;
+    fn plus(&self, factor: impl Into<Self::Factor>, other: &Self) -> Self;
 }
 
 impl Combination for f64 {
+    type Factor = DoubleDouble;
+
     fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self {
         self + factor.into().high() * other
     }
@@ -21,33 +31,35 @@ impl Combination for f64 {
 
 /// A quantity in SI units as a combination of unknowns (SI) and inputs (SI).
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Row {
+pub(super) struct Row<T = DoubleDouble> {
     /// Coefficients over the unknowns.
-    pub(super) unknowns: Form,
+    pub(super) unknowns: LinearForm<T>,
     /// Coefficients over the inputs.
-    pub(super) inputs: Form,
+    pub(super) inputs: LinearForm<T>,
 }
 
-impl Row {
+impl<T: Scalar> Row<T> {
     pub(super) fn unknown(at: usize) -> Self {
-        Self { unknowns: Form::variable(at), inputs: Form::default() }
+        Self { unknowns: LinearForm::variable(at), inputs: LinearForm::zero() }
     }
 
     pub(super) fn input(at: usize) -> Self {
-        Self { unknowns: Form::default(), inputs: Form::variable(at) }
+        Self { unknowns: LinearForm::zero(), inputs: LinearForm::variable(at) }
     }
 
     pub(super) fn is_zero(&self) -> bool {
         self.unknowns.is_zero() && self.inputs.is_zero()
     }
 
-    pub(super) fn times(&self, factor: impl Into<DoubleDouble>) -> Self {
+    pub(super) fn times(&self, factor: impl Into<T>) -> Self {
         Self::default().plus(factor, self)
     }
 }
 
-impl Combination for Row {
-    fn plus(&self, factor: impl Into<DoubleDouble>, other: &Self) -> Self {
+impl<T: Scalar> Combination for Row<T> {
+    type Factor = T;
+
+    fn plus(&self, factor: impl Into<T>, other: &Self) -> Self {
         let factor = factor.into();
         Self {
             unknowns: self.unknowns.plus(factor, &other.unknowns),
@@ -59,10 +71,10 @@ impl Combination for Row {
 /// Numbered rows, one behind the other: a large network has some ten for each of its masses. A row takes
 /// 12 bytes and 20 for each term.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Rows {
+pub(super) struct Rows<T = DoubleDouble> {
     places: Vec<Place>,
     variables: Vec<u32>,
-    coefficients: Vec<DoubleDouble>,
+    coefficients: Vec<T>,
 }
 
 /// Where a row's terms over unknowns begin and end, and where those over inputs end.
@@ -77,7 +89,7 @@ impl Place {
     const NONE: Self = Self { start: u32::MAX, middle: 0, end: 0 };
 }
 
-impl Rows {
+impl<T: Scalar> Rows<T> {
     fn place(&self, at: usize) -> Option<Place> {
         self.places.get(at).copied().filter(|place| place.start != Place::NONE.start)
     }
@@ -86,18 +98,18 @@ impl Rows {
         self.place(at).is_some()
     }
 
-    pub(super) fn get(&self, at: usize) -> Option<Row> {
+    pub(super) fn get(&self, at: usize) -> Option<Row<T>> {
         let Place { start, middle, end } = self.place(at)?;
         let form = |from: u32, to: u32| {
             let place = from as usize..to as usize;
             let variables = self.variables[place.clone()].iter().map(|&own| own as usize);
-            Form::of(variables.zip(self.coefficients[place].iter().copied()))
+            LinearForm::of(variables.zip(self.coefficients[place].iter().copied()))
         };
         Some(Row { unknowns: form(start, middle), inputs: form(middle, end) })
     }
 
     /// The row, zero if it is not there.
-    pub(super) fn row(&self, at: usize) -> Row {
+    pub(super) fn row(&self, at: usize) -> Row<T> {
         self.get(at).unwrap_or_default()
     }
 
@@ -106,13 +118,13 @@ impl Rows {
     /// # Panics
     ///
     /// When there are 2³² terms in all, or as many variables.
-    pub(super) fn set(&mut self, at: usize, row: &Row) {
-        let mut end_of = |form: &Form| {
+    pub(super) fn set(&mut self, at: usize, row: &Row<T>) {
+        let mut end_of = |form: &LinearForm<T>| {
             self.variables.extend(form.terms().iter().map(|term| packed(term.0)));
             self.coefficients.extend(form.terms().iter().map(|term| term.1));
             packed(self.variables.len())
         };
-        let start = end_of(&Form::default());
+        let start = end_of(&LinearForm::zero());
         let middle = end_of(&row.unknowns);
         let place = Place { start, middle, end: end_of(&row.inputs) };
         self.places.resize(self.places.len().max(at + 1), Place::NONE);
@@ -122,26 +134,28 @@ impl Rows {
 
 /// A sum of many rows, formed in one pass.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RowSum {
-    unknowns: Vec<(usize, DoubleDouble)>,
-    inputs: Vec<(usize, DoubleDouble)>,
+pub(super) struct RowSum<T = DoubleDouble> {
+    unknowns: Vec<(usize, T)>,
+    inputs: Vec<(usize, T)>,
 }
 
-impl RowSum {
-    pub(super) fn add(&mut self, factor: impl Into<DoubleDouble>, row: &Row) {
+impl<T: Scalar> RowSum<T> {
+    pub(super) fn add(&mut self, factor: impl Into<T>, row: &Row<T>) {
         let factor = factor.into();
-        let scaled = |&(at, coefficient): &(usize, DoubleDouble)| (at, factor * coefficient);
+        let scaled = |&(at, coefficient): &(usize, T)| (at, factor * coefficient);
         self.unknowns.extend(row.unknowns.terms().iter().map(scaled));
         self.inputs.extend(row.inputs.terms().iter().map(scaled));
     }
 
-    pub(super) fn total(&self) -> Row {
-        Row { unknowns: Form::sum(self.unknowns.clone()), inputs: Form::sum(self.inputs.clone()) }
+    pub(super) fn total(&self) -> Row<T> {
+        let [unknowns, inputs] =
+            [&self.unknowns, &self.inputs].map(|terms| LinearForm::sum(terms.iter().copied()));
+        Row { unknowns, inputs }
     }
 }
 
-impl From<&Row> for RowSum {
-    fn from(row: &Row) -> Self {
+impl<T: Scalar> From<&Row<T>> for RowSum<T> {
+    fn from(row: &Row<T>) -> Self {
         let mut sum = Self::default();
         sum.add(1.0, row);
         sum
@@ -156,7 +170,7 @@ mod tests {
     fn rows_come_back_as_they_were_put_in() {
         let third = DoubleDouble::ONE / 3.0;
         let one = Row::unknown(7).plus(third, &Row::unknown(2)).plus(-1.0, &Row::input(1));
-        let mut rows = Rows::default();
+        let mut rows = Rows::<DoubleDouble>::default();
         rows.set(2, &one);
         rows.set(0, &Row::default());
         assert_eq!(

@@ -4,16 +4,17 @@ use dashpot_dae::UnknownKind;
 
 use super::{
     mesh::{Mesh, Solution},
-    row::{Combination, Row, RowSum},
+    motion::Numbers,
+    row::{Combination, Row, RowSum, Scalar},
     structure::Structure,
     unknowns::{Draft, Inputs, Places},
 };
 
 /// Positions of the algebraic clusters and differences along the springs.
-pub(super) struct SpringBalance<'a> {
+pub(super) struct SpringBalance<'a, T> {
     structure: &'a Structure,
     /// `None` where there is no algebraic cluster.
-    solution: Option<Solution<Row>>,
+    solution: Option<Solution<Row<T>>>,
 }
 
 /// The mesh's number of a body: its algebraic cluster, or the body itself behind the clusters.
@@ -22,21 +23,22 @@ fn place(structure: &Structure, body: usize) -> usize {
 }
 
 /// Position of a body relative to its algebraic cluster; zero for all others.
-fn within(structure: &Structure, places: &Places, body: usize) -> Row {
+fn within<T: Scalar>(structure: &Structure, places: &Places<T>, body: usize) -> Row<T> {
     match structure.algebraic_cluster(body) {
         Some(_) => places.position.row(body),
         None => Row::default(),
     }
 }
 
-impl<'a> SpringBalance<'a> {
+impl<'a, T: Scalar> SpringBalance<'a, T> {
     /// Eliminates the places of the algebraic clusters under the given `loads` on bodies, those with few links first;
     /// the ones with more than `most_links` become algebraic unknowns, with `length` as their scale.
     pub(super) fn solve(
         structure: &'a Structure,
-        loads: &[RowSum],
+        numbers: &Numbers<'_, T>,
+        loads: &[RowSum<T>],
         most_links: usize,
-        places: &mut Places,
+        places: &mut Places<T>,
         inputs: &mut Inputs,
         draft: impl Fn(usize) -> (String, f64),
     ) -> Self {
@@ -45,7 +47,7 @@ impl<'a> SpringBalance<'a> {
             return Self { structure, solution: None };
         }
         let bodies = structure.cluster_of.len();
-        let mut mesh = Mesh::<Row>::new(clusters + bodies);
+        let mut mesh = Mesh::<Row<T>>::new(clusters + bodies);
         for spring in &structure.springs {
             let [a, b] = spring.ends;
             let (p, q) = (place(structure, a), place(structure, b));
@@ -53,7 +55,7 @@ impl<'a> SpringBalance<'a> {
                 let offset = within(structure, places, a)
                     .plus(-1.0, &within(structure, places, b))
                     .plus(1.0, &inputs.constant(spring.offset));
-                mesh.link(p, q, spring.constant, &offset);
+                mesh.link(p, q, (numbers.slope)(spring), &offset);
             }
         }
         let algebraic: Vec<usize> =
@@ -77,9 +79,9 @@ impl<'a> SpringBalance<'a> {
             let mut balance = RowSum::default();
             balance.add(1.0, eliminated.rest.load_at(cluster));
             for (other, link) in eliminated.rest.links(cluster) {
-                balance.add(-link.conductance, &values[cluster]);
+                balance.add(link.conductance * -1.0, &values[cluster]);
                 balance.add(link.conductance, &values[other]);
-                balance.add(-link.conductance, &link.offset);
+                balance.add(link.conductance * -1.0, &link.offset);
             }
             let (name, scale) = draft(structure.clusters[cluster].bodies[0]);
             places.rows.set(places.drafts.len(), &balance.total());
@@ -95,7 +97,7 @@ impl<'a> SpringBalance<'a> {
         Self { structure, solution: Some(eliminated.solve(values)) }
     }
 
-    pub(super) fn position(&self, places: &Places, body: usize) -> Row {
+    pub(super) fn position(&self, places: &Places<T>, body: usize) -> Row<T> {
         match self.structure.algebraic_cluster(body).zip(self.solution.as_ref()) {
             Some((cluster, solution)) => {
                 solution.value(cluster).plus(1.0, &places.position.row(body))
@@ -105,7 +107,7 @@ impl<'a> SpringBalance<'a> {
     }
 
     /// How far apart the places of two bodies are, the deformation of what has no offset.
-    pub(super) fn difference(&self, places: &Places, [a, b]: [usize; 2]) -> Row {
+    pub(super) fn difference(&self, places: &Places<T>, [a, b]: [usize; 2]) -> Row<T> {
         let Some(solution) = &self.solution else {
             return places.position.row(a).plus(-1.0, &places.position.row(b));
         };

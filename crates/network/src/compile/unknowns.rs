@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, HashMap};
 
 use dashpot_dae::{Input, UnknownKind, Waveform};
+use dashpot_numerics::DoubleDouble;
 
 use super::{
     bodies::{Bodies, Role, joint_name},
     expand::Expansion,
-    row::{Combination, Row, RowSum, Rows},
+    row::{Combination, Row, RowSum, Rows, Scalar},
     scales::{Scales, power_of_two},
     structure::{Edge, Structure},
     tree,
@@ -53,7 +54,7 @@ impl Inputs {
         self.waveforms.len() - 1
     }
 
-    pub(super) fn row(&mut self, waveform: usize, derivative: u32) -> Row {
+    pub(super) fn row<T: Scalar>(&mut self, waveform: usize, derivative: u32) -> Row<T> {
         Row::input(self.number(Input { waveform, derivative }))
     }
 
@@ -80,7 +81,7 @@ impl Inputs {
         self.entries.iter().map(column).collect()
     }
 
-    pub(super) fn constant(&mut self, value: f64) -> Row {
+    pub(super) fn constant<T: Scalar>(&mut self, value: f64) -> Row<T> {
         if value == 0.0 {
             return Row::default();
         }
@@ -95,7 +96,7 @@ impl Inputs {
     }
 
     /// The rate of a combination of inputs.
-    pub(super) fn rate(&mut self, row: &Row) -> Row {
+    pub(super) fn rate<T: Scalar>(&mut self, row: &Row<T>) -> Row<T> {
         let mut rate = Row::default();
         for &(at, coefficient) in row.inputs.terms() {
             let Input { waveform, derivative } = self.entries[at];
@@ -146,10 +147,10 @@ fn along(structure: &Structure, parents: &[Option<usize>]) -> Vec<Option<Along>>
 
 /// Where every body is, as far as it is not algebraic.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Places {
+pub(super) struct Places<T = DoubleDouble> {
     pub(super) drafts: Vec<Draft>,
     /// Rate of each differential unknown, balance of each algebraic one; SI.
-    pub(super) rows: Rows,
+    pub(super) rows: Rows<T>,
     /// Position unknown of each body that has one.
     pub(super) unknown: Vec<Option<usize>>,
     /// Velocity unknown of each mass.
@@ -161,7 +162,7 @@ pub(super) struct Places {
     /// The part whose deformation a body's position unknown is, where one is between it and its parent.
     pub(super) along: Vec<Option<Along>>,
     /// Position of each body; of bodies in algebraic clusters relative to the cluster.
-    pub(super) position: Rows,
+    pub(super) position: Rows<T>,
 }
 
 /// Chooses the unknowns that have a rate.
@@ -171,15 +172,15 @@ pub(super) struct Places {
 /// numbers, deformations along a [`tree`] of springs and dashpots stand for positions in small
 /// networks, each the very deformation of its part, whatever rigid links are held at; massless bodies that dashpots tie to one anchor are else counted from that anchor, and
 /// those of an algebraic cluster from its first body.
-pub(super) fn choose(
+pub(super) fn choose<T: Scalar>(
     network: &Network,
     expansion: &Expansion,
     bodies: &Bodies,
     structure: &Structure,
     scales: &Scales,
-    motions: &BTreeMap<usize, Row>,
+    motions: &BTreeMap<usize, Row<T>>,
     inputs: &mut Inputs,
-) -> Places {
+) -> Places<T> {
     let count = bodies.all.len();
     let mut places = Places {
         unknown: vec![None; count],
@@ -250,8 +251,8 @@ pub(super) fn choose(
     places
 }
 
-impl Places {
-    pub(super) fn velocity_of(&self, mass: usize) -> Option<Row> {
+impl<T: Scalar> Places<T> {
+    pub(super) fn velocity_of(&self, mass: usize) -> Option<Row<T>> {
         let mut sum = Row::unknown(self.velocity[mass]?);
         let mut at = mass;
         while let Some(other) = self.velocity_base[at] {
@@ -262,7 +263,7 @@ impl Places {
     }
 
     /// The acceleration of a mass, once the rows are complete.
-    pub(super) fn acceleration_of(&self, mass: usize) -> Option<Row> {
+    pub(super) fn acceleration_of(&self, mass: usize) -> Option<Row<T>> {
         let velocity = self.velocity_of(mass)?;
         let mut sum = RowSum::default();
         for &(unknown, factor) in velocity.unknowns.terms() {
@@ -272,7 +273,7 @@ impl Places {
     }
 
     /// Adds the unknowns up along the chain of parents.
-    fn add_up(&mut self, motions: &BTreeMap<usize, Row>, inputs: &mut Inputs) {
+    fn add_up(&mut self, motions: &BTreeMap<usize, Row<T>>, inputs: &mut Inputs) {
         let mut is_done = vec![false; self.parent.len()];
         for body in 0..self.parent.len() {
             let mut chain = vec![body];

@@ -14,42 +14,33 @@ const PLACES: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
 /// It may seem to be in the pad by so much of that.
 const ROUNDING: f64 = 1e-6;
 
-/// The forms of a pad while it is struck, with its instance, and behind that, and the numbers of both.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Forms<'f, const N: usize> {
-    pub(crate) before: (&'f ParametricSystem, &'f Instance<N>),
-    pub(crate) behind: &'f ParametricSystem,
-    pub(crate) numbers: &'f [f64],
-}
-
 /// Whether what has struck a pad leaves it for good: the pad is followed from the release on for the dimensionless time
 /// `left`, at a tolerance. Not where it cannot be followed, a law leaves its range, or it meets again what has left it.
 pub(crate) fn is_left<const N: usize>(
-    Forms { before, behind, numbers }: Forms<'_, N>,
+    (form, instance): (&ParametricSystem, &Instance<N>),
+    numbers: &[f64],
     course: &Course<N>,
     (left, rtol): (f64, f64),
 ) -> bool {
-    let Some(mut instance) = behind.instance::<N>() else { return false };
+    let Some(behind) = form.parted(instance) else { return false };
     let Some(from) = course.track.late(course.release) else { return false };
-    if !behind.fill(numbers, &mut instance) {
-        return false;
-    }
-    let pull = before.0.constant_force(numbers) / before.0.impactor_mass(numbers);
-    let speed = dot(&before.0.speed_of_face(before.1), &from);
+    let pull = form.constant_force(numbers) / form.impactor_mass(numbers);
+    let face = form.speed_of_face(instance);
+    let speed = dot(&face, &from);
     // How far what leaves the pad has come [m] after so many seconds.
     let flown = |time: f64| (speed + 0.5 * pull * time) * time;
-    let least = LITTLE * rtol * before.0.energy_at_start(numbers, before.1);
-    let is_massless = behind.masses() == 0;
-    let stepped = Stepped { instance: &instance, unknowns: behind.unknowns(), end: left };
+    let least = LITTLE * rtol * form.energy_at_start(numbers);
+    let is_massless = form.masses() == 1;
+    let stepped = Stepped { instance: &behind, unknowns: form.unknowns(), end: left };
     let is_over = |nodes: &Nodes<N>| {
         let last = &nodes.values[nodes.values.len() - 1];
-        is_massless && behind.stored_at_most(numbers, &instance, last) <= least
+        is_massless && form.stored_at_most(numbers, &behind, last) <= least
     };
     let Some(track) = stepped.settle(&from, rtol, &is_over) else { return false };
-    if track.steps.iter().any(|own| own.leave(&instance.curves, own.end())) {
+    if track.steps.iter().any(|own| own.leave(&behind.curves, own.end())) {
         return false;
     }
-    let (face, time) = (behind.speed_of_face(&instance), behind.time_scale());
+    let time = form.time_scale();
     let (mut way, mut at) = (0.0, 0.0);
     for step in &track.steps {
         let panel = step.panel(&|z| dot(&face, z));

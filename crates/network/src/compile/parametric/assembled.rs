@@ -1,144 +1,130 @@
-//! How the form of a network comes about.
+//! How the form of a network comes about: its rows are assembled as those of any network, of traced numbers.
 
-use std::iter::repeat_n;
+use std::{collections::BTreeMap, iter::repeat_n};
+
+use dashpot_dae::UnknownKind;
 
 use super::{
-    Curve, ParametricSystem, Part, PartKind, Placed, Weighed,
-    fingerprint::Fingerprint,
+    Curve, ParametricSystem, Weighed,
     first_phases::FirstPhases,
-    reading::{difference, force_parts, order},
+    numbered::Numbered,
+    tape::{Pattern, Tape},
+    traced::{Recorder, Traced},
 };
 use crate::{
     NodeId,
     compile::{
-        bodies::{Bodies, Role},
-        scales::Scales,
-        structure::Structure,
-        unknowns::Places,
+        assemble::Graph,
+        bodies::Bodies,
+        motion::{Motion, Numbers},
+        outputs::{composed, softest},
+        row::{Combination, Row, RowSum},
+        unknowns::{self, Draft, Inputs, Places},
     },
     elements::Law,
 };
 
+impl Numbered {
+    /// The rows of a network of these numbers.
+    fn rows<'r>(
+        &self,
+        graph: &Graph<'_>,
+        recorder: &'r Recorder,
+    ) -> (Places<Traced<'r>>, Motion<Traced<'r>>) {
+        let mut inputs = Inputs::default();
+        let mut loads = vec![RowSum::default(); graph.bodies.all.len()];
+        for (&body, number) in self.of_body.iter().filter(|_| self.fingerprint.has_forces) {
+            loads[body].add(recorder.number(number + 2), &inputs.constant(1.0));
+        }
+        let numbers = Numbers {
+            // The whole force of a law stands in its slot.
+            slope: &|edge| match edge.primitive {
+                own if graph.expansion.primitives[own].is_nonlinear() => Traced::default(),
+                own => recorder.number(self.of_primitive[own]),
+            },
+            mass: &|body, _| recorder.number(self.of_body[&body]),
+        };
+        graph.equations(numbers, loads, &BTreeMap::new(), &mut inputs)
+    }
+}
+
 impl ParametricSystem {
-    /// The form of a network with its places; `None` where it is of another kind.
+    /// The form of a network with its graph; `None` where it is of another kind.
     pub(super) fn assembled(
         first: &FirstPhases<'_>,
-        fingerprint: Fingerprint,
-        bodies: &Bodies,
-        structure: &Structure,
-        scales: &Scales,
-        places: &Places,
+        numbered: Numbered,
+        graph: &Graph<'_>,
     ) -> Option<Self> {
-        let unknowns = places.drafts.len();
-        let one = (!first.forces.is_empty()).then_some(unknowns);
-        let own = Parts::of(first, bodies, places, unknowns + usize::from(one.is_some()))?;
-        let (placed, weighed, numbers) = moving(bodies, places, own.numbers)?;
-        if one.is_some() && !(weighed.len() == 1 && first.forces_act_on_masses(bodies)) {
+        let Graph { expansion, scales, .. } = graph;
+        let recorder = Recorder::default();
+        let (places, motion) = numbered.rows(graph, &recorder);
+        let Numbered { fingerprint, of_primitive, of_body, .. } = numbered;
+        let one = fingerprint.has_forces.then_some(places.drafts.len());
+        if one.is_some() && !(of_body.len() == 1 && first.forces_act_on_masses(&graph.bodies)) {
             return None;
         }
-        let struck = Struck::of(first, bodies)?;
-        let mass = weighed.iter().find(|own| own.body == struck.body)?.numbers[0];
-        let shape = &first.expansion.shapes[struck.element];
-        let of_unknowns = places.drafts.iter().map(|draft| draft.scale / scales.lift);
+        let struck = Struck::of(first, &graph.bodies)?;
+
+        let is_followed = |draft: &&Draft| draft.kind == UnknownKind::Differential;
+        let unknowns = places.drafts.iter().filter(is_followed).count();
+        let (followed, laws) = places.drafts.split_at(unknowns);
+        let columns = followed.iter().map(|draft| draft.scale / scales.lift);
+        let slots = laws.len() + usize::from(one.is_some());
+        let columns: Vec<f64> = columns.chain(repeat_n(1.0, slots)).collect();
+        let scaled = |factor: f64, row: &Row<Traced<'_>>| {
+            Pattern::of(row, &recorder, (factor, &columns), places.drafts.len())
+        };
+        let pattern = |row: Option<Row<Traced<'_>>>| scaled(1.0, &row?);
+        let rate = |at: usize| scaled(scales.time / columns[at], &places.rows.row(at));
+        let curve = |draft: &Draft| {
+            let Some(unknowns::Law::Force(own)) = draft.law else { return None };
+            let rows = [pattern(motion.deformation.get(own))?, pattern(motion.rate.get(own))?];
+            Curve::of(&expansion.primitives[own], of_primitive[own], rows)
+        };
+        let spring = |own: usize| Some((of_primitive[own], pattern(motion.deformation.get(own))?));
+        let springs = graph.structure.springs.iter().map(|edge| edge.primitive);
+        let springs = springs.filter(|&own| !expansion.primitives[own].is_nonlinear());
+        let whole =
+            |at: usize| (expansion.primitives[at].law != Law::Rigid).then(|| motion.force.row(at));
+        let prefer = softest(&expansion.primitives, &motion);
+        let mut forces = composed(&expansion.shapes[struck.element], &whole, &prefer);
+        let [a, b] = struck.ends.map(|end| motion.position.row(end));
+        let weighed = |(&body, &number): (&usize, &usize)| {
+            let base = places.velocity_base[body].map(|base| of_body[&base] + 1);
+            let unknown = places.velocity[body]?;
+            Some(Weighed { unknown, base, numbers: [number, number + 1, number + 2] })
+        };
         let own = Self {
+            rates: (0..unknowns).map(rate).collect::<Option<_>>()?,
+            curves: laws.iter().map(curve).collect::<Option<_>>()?,
+            springs: springs.map(spring).collect::<Option<_>>()?,
+            force: pattern(forces.swap_remove(0))?,
+            deformation: pattern(Some(a.plus(-1.0, &b)))?,
+            speed: pattern(motion.velocity.get(struck.body))?,
+            tape: Tape::of(&recorder),
+            weighed: of_body.iter().map(weighed).collect::<Option<_>>()?,
             fingerprint,
-            bodies: bodies.all.len(),
-            eliminated: order(
-                (0..bodies.all.len()).map(|at| structure.cluster_of[at].is_some()).collect(),
-                &own.all,
-            ),
-            placed,
-            weighed,
-            scales: of_unknowns.chain(repeat_n(1.0, own.slots - unknowns)).collect(),
-            unknowns,
             one,
-            sprung: None,
+            unknowns,
             opens: first.opens(),
             time: scales.time,
             element: struck.element,
             impactor: struck.impactor,
-            face: struck.body,
-            mass,
-            force: force_parts(shape, &own.part_of, &own.all)?,
-            deformation: difference(places, struck.ends)?,
-            parts: own.all,
-            curves: own.curves,
-            numbers,
+            mass: *of_body.get(&struck.body)?,
+            scales: columns,
         };
         own.is_explicit().then_some(own)
     }
-}
 
-/// The parts of a form, their laws, and how many numbers and slots there are up to here.
-struct Parts {
-    all: Vec<Part>,
-    /// The part that each primitive has become.
-    part_of: Vec<Option<usize>>,
-    curves: Vec<Curve>,
-    numbers: usize,
-    slots: usize,
-}
-
-impl Parts {
-    /// The primitives between different bodies, with `slots` taken before.
-    fn of(first: &FirstPhases<'_>, bodies: &Bodies, places: &Places, slots: usize) -> Option<Self> {
-        let primitives = &first.expansion.primitives;
-        let part_of = vec![None; primitives.len()];
-        let mut own = Self { all: Vec::new(), part_of, curves: Vec::new(), numbers: 0, slots };
-        for (at, primitive) in primitives.iter().enumerate() {
-            let ends = primitive.ends.map(|joint| bodies.of_joint[joint]);
-            if ends[0] == ends[1] {
-                continue;
-            }
-            let part = own.all.len();
-            own.part_of[at] = Some(part);
-            let (kind, numbers) = match primitive.law {
-                Law::Dashpot(_) => (PartKind::Dashpot, 1),
-                Law::Nonlinear { .. } => {
-                    let curve = Curve::of(primitive, part)?;
-                    let numbers = curve.numbers();
-                    own.curves.push(curve);
-                    own.slots += 1;
-                    (PartKind::Curve(own.slots - 1), numbers)
-                }
-                _ => (PartKind::Spring, 1),
-            };
-            let deformation = difference(places, ends)?;
-            let number = own.numbers;
-            own.all.push(Part { ends, number, kind, deformation });
-            own.numbers += numbers;
-        }
-        Some(own)
+    /// Whether forces of laws follow one from the other.
+    fn is_explicit(&self) -> bool {
+        self.curves.iter().enumerate().all(|(at, curve)| {
+            let laws = self.unknowns + at..self.unknowns + self.curves.len();
+            let rate = curve.has_rate.then_some(&curve.rate);
+            let rows = rate.into_iter().chain([&curve.deformation]);
+            rows.flat_map(|row| &row.terms).all(|term| !laws.contains(&term.column))
+        })
     }
-}
-
-/// The bodies with an unknown position, those with mass, and how many numbers there are with theirs; `None`
-/// where one moves otherwise.
-fn moving(
-    bodies: &Bodies,
-    places: &Places,
-    mut numbers: usize,
-) -> Option<(Vec<Placed>, Vec<Weighed>, usize)> {
-    let (mut placed, mut weighed) = (Vec::new(), Vec::new());
-    for (body, own) in bodies.all.iter().enumerate() {
-        let position = places.unknown[body];
-        let is_known = match own.role {
-            Role::Fixed => position.is_none(),
-            Role::Mass(_) | Role::Massless => position.is_some(),
-            Role::Prescribed(_) => false,
-        };
-        if !is_known || places.velocity_base[body].is_some() {
-            return None;
-        }
-        if let Some(unknown) = position {
-            placed.push(Placed { unknown, body, parent: places.parent[body] });
-        }
-        if let Some(unknown) = places.velocity[body] {
-            weighed.push(Weighed { body, unknown, numbers: [numbers, numbers + 1, numbers + 2] });
-            numbers += 3;
-        }
-    }
-    Some((placed, weighed, numbers))
 }
 
 /// What strikes, and the element that it strikes.

@@ -1,10 +1,10 @@
 //! Laws that are not linear in a form.
 
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 use dashpot_numerics::small::dot;
 
-use super::Instance;
+use super::{Instance, tape::Pattern};
 use crate::{
     compile::expand::Primitive,
     elements::{ELEMENTS, Element, Law},
@@ -17,10 +17,14 @@ pub(super) struct Curve {
     entry: &'static Registered<Arc<dyn Element>>,
     /// Its values at the first network; the numbers among them differ from network to network.
     values: Vec<Value>,
-    /// Its place among the parts.
-    pub(super) part: usize,
+    /// Where its numbers stand among those of a network.
+    pub(super) numbers: Range<usize>,
     /// Whether it depends on the rate.
     pub(super) has_rate: bool,
+    /// Its deformation \[m\].
+    pub(super) deformation: Pattern,
+    /// Its rate \[m/s\].
+    pub(super) rate: Pattern,
 }
 
 /// A law in the system of one network: its force \[N\] stands in a slot behind the unknowns.
@@ -38,112 +42,58 @@ pub struct CurveRow<const N: usize> {
     pub(super) numbers: Vec<f64>,
 }
 
-/// A face without mass that springs alone hold, in the system of one network: its speed \[m/s\] stands in a slot.
-///
-/// Their forces are in balance, so that its speed is the mean of those of their other ends, each weighed by the
-/// stiffness of its spring.
-#[derive(Debug, Clone)]
-pub(super) struct Sprung<const N: usize> {
-    pub(super) slot: usize,
-    /// The sum of the constant stiffnesses \[N/m\].
-    pub(super) stiffness: f64,
-    /// Those speeds times these, over the unknowns and slots.
-    pub(super) pull: [f64; N],
-    /// The slot of each other law at the face, and the speed of its other end.
-    pub(super) curves: Vec<(usize, [f64; N])>,
-}
-
 impl<const N: usize> Instance<N> {
-    /// The unknowns, with what follows from them in the slots: the forces of the laws that are not linear, and the
-    /// speed of a face that springs alone hold.
+    /// The unknowns, with the forces of the laws that are not linear in their slots, and the velocity of a face that was
+    /// let go.
     #[inline]
     pub fn completed(&self, z: &[f64; N]) -> [f64; N] {
         let mut all = *z;
         for curve in &self.curves {
-            let force = curve.law.force(dot(&curve.deformation, z), dot(&curve.rate, z));
+            let force = curve.law.force(dot(&curve.deformation, &all), dot(&curve.rate, &all));
             all[curve.slot] = force;
         }
-        if let Some(own) = &self.sprung {
-            all[own.slot] = own.speed(&self.curves, &all);
+        if let Some(own) = &self.parted {
+            all[own.unknown] = own.velocity(&self.curves, &all);
         }
         all
     }
 }
 
-impl<const N: usize> Sprung<N> {
-    /// The speed of the face, where the forces of the laws stand in their slots.
-    fn speed(&self, curves: &[CurveRow<N>], z: &[f64; N]) -> f64 {
-        let (mut stiffness, mut pull) = (self.stiffness, dot(&self.pull, z));
-        for (slot, speed) in &self.curves {
-            let Some(curve) = curves.iter().find(|own| own.slot == *slot) else { continue };
-            let own = curve.law.tangent(dot(&curve.deformation, z), 0.0).stiffness;
-            stiffness += own;
-            pull += own * dot(speed, z);
-        }
-        pull / stiffness
-    }
-}
-
 impl Curve {
-    /// The law of a primitive; `None` where it is not of the register, or its slope is infinite at rest.
-    pub(super) fn of(primitive: &Primitive, part: usize) -> Option<Self> {
-        let element = &primitive.element;
-        let entry = registered(ELEMENTS, element.kind())?;
+    /// The law of a primitive over these rows; `None` where it is not of the register, or its slope is infinite at rest.
+    pub(super) fn of(
+        primitive: &Primitive,
+        number: usize,
+        [deformation, rate]: [Pattern; 2],
+    ) -> Option<Self> {
+        let entry = registered(ELEMENTS, primitive.element.kind())?;
         let Law::Nonlinear { damping, .. } = primitive.law else { return None };
-        if primitive.is_reflected() {
-            return None;
-        }
-        Some(Self { entry, values: element.values(), part, has_rate: damping > 0.0 })
-    }
-
-    /// How many numbers it has.
-    pub(super) fn numbers(&self) -> usize {
-        self.values.iter().map(numbers_of).sum()
-    }
-
-    /// Reads the numbers of the same law in another network; `None` where it differs in more.
-    pub(super) fn read(&self, primitive: &Primitive, numbers: &mut Vec<f64>) -> Option<()> {
-        let values = primitive.element.values();
-        if primitive.element.kind() != self.entry.word || values.len() != self.values.len() {
-            return None;
-        }
-        for (own, value) in self.values.iter().zip(&values) {
-            match (own, value) {
-                (Value::Number(_), Value::Number(number)) => numbers.push(*number),
-                (Value::Table(own), Value::Table(points)) if own.len() == points.len() => {
-                    numbers.extend(points.iter().flat_map(|point| [point.0, point.1]));
-                }
-                (own, value) if own == value => {}
-                _ => return None,
-            }
-        }
-        Some(())
+        let mut values = primitive.element.values();
+        let mut numbers = 0;
+        each_number(&mut values, |_| numbers += 1);
+        let numbers = number..number + numbers;
+        let own = Self { entry, values, numbers, has_rate: damping > 0.0, deformation, rate };
+        (!primitive.is_reflected()).then_some(own)
     }
 
     /// The law with these numbers; `None` where they are out of its range.
     pub(super) fn law(&self, numbers: &[f64]) -> Option<Arc<dyn Element>> {
-        let mut numbers = numbers.iter();
-        let mut values = self.values.clone();
-        for value in &mut values {
-            match value {
-                Value::Number(number) => *number = *numbers.next()?,
-                Value::Table(points) => {
-                    for point in points {
-                        *point = (*numbers.next()?, *numbers.next()?);
-                    }
-                }
-                _ => {}
-            }
-        }
+        let (mut numbers, mut values) = (numbers.iter(), self.values.clone());
+        each_number(&mut values, |own| *own = numbers.next().copied().unwrap_or(f64::NAN));
         (self.entry.make)(&values).ok().filter(|law| law.validate().is_ok())
     }
 }
 
-/// How many numbers a value has: the points of a curve are two each.
-fn numbers_of(value: &Value) -> usize {
-    match value {
-        Value::Number(_) => 1,
-        Value::Table(points) => 2 * points.len(),
-        _ => 0,
+/// Does something with each number among the values of a law: the points of a curve are two each.
+pub(super) fn each_number(values: &mut [Value], mut with: impl FnMut(&mut f64)) {
+    for value in values {
+        match value {
+            Value::Number(number) => with(number),
+            Value::Table(points) => points.iter_mut().for_each(|point| {
+                with(&mut point.0);
+                with(&mut point.1);
+            }),
+            _ => {}
+        }
     }
 }
