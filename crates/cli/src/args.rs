@@ -328,6 +328,12 @@ pub(crate) fn shift(text: &str) -> Result<f64, String> {
     crate::input::argument("time", text, Dimension::TIME)
 }
 
+/// A positive value, in SI units.
+pub(crate) fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
+    let value = crate::input::argument(name, text, dimension)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
+}
+
 /// Units of work: a whole number, or one such as 1e9.
 pub(crate) fn budget(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e18;
@@ -387,10 +393,4 @@ mod tests {
         assert!(told.ends_with("not provided: <FIRST> <SECOND>"), "{told}");
         assert_eq!(help, None);
     }
-}
-
-/// A positive value, in SI units.
-pub(crate) fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let value = crate::input::argument(name, text, dimension)?;
-    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
 }

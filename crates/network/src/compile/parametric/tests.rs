@@ -115,9 +115,13 @@ fn a_constant_force_acts_in_a_slot_of_its_own() {
 #[test]
 fn what_is_zero_for_all_numbers_disappears_and_nothing_else() {
     let recorder = Recorder::default();
-    let [a, b] = [0, 1].map(|at| recorder.number(at));
-    let sum = |terms: [Traced<'_>; 3]| LinearForm::sum(terms.map(|own| (0, own)));
-    assert!(sum([a / (a + b), b / (a + b), Traced::from(-1.0)]).is_zero());
-    assert!(sum([a / b, a / b, a / b * -2.0]).is_zero());
-    assert!(!sum([a, b * -1.0, Traced::default()]).is_zero());
+    let [a, b, c, d] = [0, 1, 2, 3].map(|at| recorder.number(at));
+    let is_zero = |terms: &[Traced<'_>]| {
+        LinearForm::sum(terms.iter().map(|own| (0, *own))).is_zero()
+    };
+    assert!(is_zero(&[a / (a + b), b / (a + b), Traced::from(-1.0)]));
+    assert!(is_zero(&[a / b, a / b, a / b * -2.0]));
+    assert!(!is_zero(&[a, b * -1.0]));
+    // Of numbers at equal distances these would cancel.
+    assert!(!is_zero(&[a, b * -1.0, c * -1.0, d]));
 }

@@ -6,7 +6,7 @@ use std::{
     ops::{Add, Div, Mul},
 };
 
-use dashpot_numerics::{Coefficient, DoubleDouble};
+use dashpot_numerics::{Coefficient, DoubleDouble, Stream};
 
 /// What is done with two values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,19 +37,16 @@ pub(super) struct Recorder {
 /// A coefficient that knows what it is made of: of numbers of a network, or else it is a constant.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Traced<'r> {
-    /// Its value where the numbers are some between 1 and 2: what is zero for these is zero for all.
+    /// Its value where the numbers are arbitrary ones between 1 and 2: what is zero for these is zero for all.
     sample: DoubleDouble,
     node: Option<(&'r Recorder, usize)>,
 }
 
-/// The golden ratio, less one: its multiples lie far from each other between whole numbers.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
 impl Recorder {
     /// The number of a network at this place among them.
     pub(super) fn number(&self, at: usize) -> Traced<'_> {
-        let sample = DoubleDouble::from(1.0 + ((at + 1) as f64 * GOLDEN).fract());
-        Traced { sample, node: Some((self, self.place(Node::Number(at)))) }
+        let sample = 1.0 + Stream::new(at as u64).share();
+        Traced { sample: sample.into(), node: Some((self, self.place(Node::Number(at)))) }
     }
 
     /// All that was recorded, and whether each is needed for what is asked for.
@@ -73,7 +70,7 @@ impl Recorder {
     }
 }
 
-impl<'r> Traced<'r> {
+impl Traced<'_> {
     fn is_constant(self, value: f64) -> bool {
         self.node.is_none() && self.sample == DoubleDouble::from(value)
     }
