@@ -14,8 +14,11 @@ use crate::{
 const DURATION: f64 = 0.02;
 const STATES: usize = 12;
 
+/// A pad of numbers that are varied by what it is given.
+type Pad<'p> = dyn Fn(&mut dyn FnMut(f64) -> f64) -> Model + 'p;
+
 /// A mass on `pad` on another one, whose numbers all differ by other parts of `by`.
-fn padded(pad: &dyn Fn(&mut dyn FnMut(f64) -> f64) -> Model, by: f64) -> Network {
+fn padded(pad: &Pad<'_>, by: f64) -> Network {
     let mut power = 0.0;
     let mut number = |value: f64| {
         power += 1.0;
@@ -116,9 +119,8 @@ fn a_constant_force_acts_in_a_slot_of_its_own() {
 fn what_is_zero_for_all_numbers_disappears_and_nothing_else() {
     let recorder = Recorder::default();
     let [a, b, c, d] = [0, 1, 2, 3].map(|at| recorder.number(at));
-    let is_zero = |terms: &[Traced<'_>]| {
-        LinearForm::sum(terms.iter().map(|own| (0, *own))).is_zero()
-    };
+    let is_zero =
+        |terms: &[Traced<'_>]| LinearForm::sum(terms.iter().map(|own| (0, *own))).is_zero();
     assert!(is_zero(&[a / (a + b), b / (a + b), Traced::from(-1.0)]));
     assert!(is_zero(&[a / b, a / b, a / b * -2.0]));
     assert!(!is_zero(&[a, b * -1.0]));
