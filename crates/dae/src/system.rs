@@ -141,27 +141,15 @@ impl System {
 
     /// The times in `(0, end)` at which a driving function or one of its rates may jump, sorted, in dimensionless time.
     pub fn breakpoints(&self, end: f64) -> Vec<f64> {
-        inside(self.waveforms.iter().flat_map(Waveform::breakpoints).collect(), end)
-    }
-
-    /// Of these times those that no step may cross even of a method that integrates what driving functions add to rates in
-    /// closed form: there their values jump, or the rates of those in balances and laws. Lines of a table, and the
-    /// integrals of lines with which a measured acceleration drives networks, have such at their ends alone.
-    pub(crate) fn breaks(&self, end: f64) -> Vec<f64> {
-        let in_rates =
-            |entry: &(usize, usize, &f64)| self.unknowns[entry.0].kind == UnknownKind::Differential;
-        let given = self.input_matrix.triplet_iter();
-        let given = given.map(|entry| (entry.1, u32::from(!in_rates(&entry))));
-        let arguments = self.terms.iter().flat_map(|term| &term.arguments);
-        let in_terms = arguments.flat_map(|own| own.inputs.terms().iter().map(|term| (term.0, 1)));
-        let mut orders = vec![None; self.waveforms.len()];
-        for (input, further) in given.chain(in_terms) {
-            let Input { waveform, derivative } = self.inputs[input];
-            orders[waveform] = orders[waveform].max(Some(derivative + further));
-        }
-        let all = self.waveforms.iter().zip(orders);
-        let broken = all.filter_map(|(waveform, order)| Some(waveform.breaks(order?)));
-        inside(broken.flatten().collect(), end)
+        let mut times: Vec<f64> = self
+            .waveforms
+            .iter()
+            .flat_map(Waveform::breakpoints)
+            .filter(|&t| t > 0.0 && t < end)
+            .collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
     }
 
     /// The dimensionless time in which driving functions change in a span between two of their breakpoints: the shortest
@@ -213,12 +201,6 @@ impl System {
         }
     }
 
-    /// When the next piece of a driving function begins after `t`; infinite where none does.
-    pub(crate) fn next_piece(&self, t: f64) -> f64 {
-        let next = |waveform: &Waveform| waveform.piece_until(t).1;
-        self.waveforms.iter().filter_map(next).fold(f64::INFINITY, f64::min)
-    }
-
     /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {
@@ -227,14 +209,6 @@ impl System {
                 self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
         }
     }
-}
-
-/// The times in `(0, end)`, sorted.
-fn inside(mut times: Vec<f64>, end: f64) -> Vec<f64> {
-    times.retain(|&time| time > 0.0 && time < end);
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    times
 }
 
 /// A scalar law of two quantities, for instance a force of a deformation and its rate; SI units.

@@ -4,11 +4,7 @@ use dashpot_numerics::chebyshev::Interpolation;
 use diffsol::{OdeSolverMethod, OdeSolverStopReason, Vector, ode_solver::OdeSolverStatistics};
 
 use super::{
-    Algebra, Stop,
-    algebra::Slice,
-    equations::Equations,
-    explicit::{Control, Integrals},
-    failure::Site,
+    Algebra, Stop, algebra::Slice, equations::Equations, explicit::Control, failure::Site,
 };
 use crate::{
     Observer, Output, Progress, Run, Signal, SolveError, Statistics, System, UnknownKind,
@@ -38,10 +34,6 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
     pub(super) span: (f64, f64),
-    /// The times at which another piece of a driving function begins, dimensionless.
-    pub(super) corners: Vec<f64>,
-    /// The integrals of driving functions that have such, for the explicit method.
-    pub(super) integrals: Integrals,
     /// What the explicit method knows from the spans before.
     pub(super) control: Control,
     /// The unknowns at the end of the last span, or where the integrator got stuck in it.
@@ -133,7 +125,7 @@ impl Walk<'_> {
                 }
             };
             self.pieces.add_row(self.system, t, state.y.slice());
-            self.pieces.end_step(self.system, degree);
+            self.pieces.end_step(degree);
             before = state.t;
             self.report(site.time)?;
             if reached {

@@ -3,7 +3,6 @@
 //! Every stage solves the balances, so that algebraic unknowns need no equations of their own. The dense
 //! output is a polynomial of degree 7 in the differential unknowns; the others follow from it.
 
-mod drives;
 mod reduced;
 
 use dashpot_numerics::{
@@ -11,7 +10,6 @@ use dashpot_numerics::{
     dop853::{DEGREE, DENSE, END, FIFTH, FURTHER, LAST, Row, STAGES, Stage, THIRD},
 };
 
-pub(super) use self::drives::{Integrals, integrals};
 use self::reduced::{Rate, Reduced, Unbalanced};
 use super::{Stop, Walk, failure::Site, walk::ROUNDINGS};
 use crate::{SolveError, System, budget::Besides, pieces::between};
@@ -26,8 +24,6 @@ const GROWTH: (f64, f64) = (1.0 / 3.0, 6.0);
 /// The longest step in parts of a span between corners at the tolerance [`COARSE`]: errors fall by its power of the order
 /// where it limits the steps, and half of a span is short enough for that to be seen.
 const OF_SPAN: f64 = 0.5;
-/// A step crosses corners where it holds so many of them: to end at a single one costs no more, and is exact.
-const CROSSED: usize = 2;
 /// The longest step in periods of the fastest driving function at the tolerance [`COARSE`]: a longer one might miss it.
 const OF_PERIOD: f64 = 0.25;
 /// Part of a step whose balances have no solution that is tried next.
@@ -72,9 +68,6 @@ struct Integrator<'s> {
     /// Times inside the step, and the unknowns there.
     times: Vec<f64>,
     inside: Vec<f64>,
-    /// What driving functions have made of the unknowns by themselves at the start of the step, and at a stage; empty
-    /// where they act in the slopes alone.
-    shifts: [Vec<f64>; 2],
     /// The fastest rate that the step shows.
     shown: f64,
 }
@@ -86,54 +79,11 @@ pub(super) fn span(
     first: f64,
     tolerance: (f64, &[f64]),
 ) -> Result<(), Stop> {
-    let integrals = Integrals::clone(&walk.integrals);
-    let mut own = Integrator::new(Reduced::new(walk.system, walk.span, &integrals), state);
+    let mut own = Integrator::new(walk.system, walk.span.0, state);
     let length = walk.span.1 - walk.span.0;
     let outcome = own.advance(walk, (first, length), tolerance);
     walk.statistics.rhs_calls += own.reduced.calls;
     outcome
-}
-
-/// The corners within a span at which a step may end, or which it may cross.
-struct Corners {
-    /// When they come, counted from the start of the span; at last its end.
-    times: Vec<f64>,
-    /// The next one, and the one before.
-    next: usize,
-    before: f64,
-}
-
-impl Corners {
-    fn of(walk: &Walk<'_>) -> Self {
-        let (start, end) = walk.span;
-        let first = walk.corners.partition_point(|&time| time <= start);
-        let inside = walk.corners[first..].iter().take_while(|&&time| time < end);
-        let times = inside.map(|time| time - start).chain([end - start]).collect();
-        Self { times, next: 0, before: 0.0 }
-    }
-
-    /// The step that is wanted behind one of this length and error that has been cut from what was wanted: where corners may be
-    /// crossed it grows as the error lets it.
-    fn kept(&self, (wanted, step): (f64, f64), error: Option<f64>) -> f64 {
-        let own = error.map_or(wanted, |error| SAFETY * step * error.powf(-0.125));
-        if self.times.len() > 1 { own.clamp(wanted, GROWTH.1 * wanted) } else { wanted }
-    }
-
-    /// The borders between which a step of this length from `t` on is to end: the corners beside it, or those of the span where
-    /// many lie within it.
-    fn around(&mut self, t: f64, step: f64) -> (f64, f64) {
-        let last = self.times.len() - 1;
-        while self.next < last && self.times[self.next] <= t {
-            self.before = self.times[self.next];
-            self.next += 1;
-        }
-        let crossed = self.times.get(self.next + CROSSED - 1);
-        if crossed.is_some_and(|&corner| corner < t + step) {
-            (f64::NEG_INFINITY, self.times[last])
-        } else {
-            (self.before, self.times[self.next])
-        }
-    }
 }
 
 /// What limits the steps, from span to span.
@@ -197,9 +147,9 @@ impl Control {
 }
 
 impl<'s> Integrator<'s> {
-    fn new(reduced: Reduced<'s>, state: &[f64]) -> Self {
+    fn new(system: &'s System, start: f64, state: &[f64]) -> Self {
+        let reduced = Reduced::new(system, start);
         let count = reduced.differential().len();
-        let shifts = vec![0.0; if reduced.is_driven_apart() { count } else { 0 }];
         Self {
             reduced,
             slopes: vec![vec![0.0; count]; LAST + 1 + FURTHER.len()],
@@ -209,7 +159,6 @@ impl<'s> Integrator<'s> {
             dense: std::array::from_fn(|_| vec![0.0; count]),
             times: Vec::with_capacity(DEGREE),
             inside: Vec::with_capacity(DEGREE * state.len()),
-            shifts: [shifts.clone(), shifts],
             shown: 0.0,
         }
     }
@@ -231,20 +180,17 @@ impl<'s> Integrator<'s> {
         let share = share(tolerance.0);
         control.longest = LONGEST * share;
         // Where corners limit the steps, and not their errors, they would be the same at all tolerances.
-        let of_gap = OF_SPAN * (tolerance.0 / COARSE).powf(0.125);
-        let mut corners = Corners::of(walk);
+        let of_span = OF_SPAN * (tolerance.0 / COARSE).powf(0.125);
+        let limit = if length < end { of_span * length } else { length };
         let mut wanted = control.step.unwrap_or(first);
         let mut t = 0.0;
         while t < length {
             let driven = system.period((start + t, start + (t + wanted).min(length)));
-            let wave = OF_PERIOD * share * driven;
-            let (before, border) = corners.around(t, wanted.min(wave));
-            let gap = border - before;
-            let mut step = wanted.min(if gap < end { of_gap * gap } else { gap }).min(wave);
-            if t + (1.0 + STRETCH) * step >= border {
-                step = border - t;
+            let mut step = wanted.min(limit).min(OF_PERIOD * share * driven);
+            if t + (1.0 + STRETCH) * step >= length {
+                step = length - t;
             }
-            let to = if step < border - t { t + step } else { border };
+            let to = if step < length - t { t + step } else { length };
             if t + 0.1 * step <= t || step.is_nan() {
                 return Err(self.stuck(walk, t, site(t)));
             }
@@ -271,10 +217,8 @@ impl<'s> Integrator<'s> {
                 let (work, time) = (walk.run.budget.done(), site(t).time);
                 return Err(SolveError::BudgetSpent { method, time, work }.into());
             }
-            // What cuts a step is no reason for a shorter one behind it, nor that corners are not crossed.
-            let longest = control.longest / control.rate;
-            let kept =
-                if is_accepted { corners.kept((wanted, step), error).min(longest) } else { 0.0 };
+            // What cuts a step is no reason for a shorter one behind it.
+            let kept = if is_accepted { wanted.min(control.longest / control.rate) } else { 0.0 };
             wanted = if step < wanted { kept.max(step * factor) } else { step * factor };
         }
         walk.control = Control { step: Some(wanted), ..control };
@@ -298,16 +242,11 @@ impl<'s> Integrator<'s> {
         to: f64,
         tolerance: (f64, &[f64]),
     ) -> Result<f64, Unbalanced> {
-        if let [start, _] = &mut self.shifts
-            && !start.is_empty()
-        {
-            self.reduced.shifts(t, start);
-        }
         for (at, stage) in STAGES.iter().enumerate() {
             self.stage(at + 1, stage, (t, step))?;
         }
         self.after.copy_from_slice(&self.stage);
-        self.reach(END, step, to);
+        self.reach(END, step);
         std::mem::swap(&mut self.stage, &mut self.after);
         let error = self.error(step, tolerance);
         if error <= 1.0 {
@@ -321,31 +260,16 @@ impl<'s> Integrator<'s> {
 
     /// The slopes of a stage, and the unknowns there.
     fn stage(&mut self, at: usize, stage: &Stage, (t, step): (f64, f64)) -> Result<(), Unbalanced> {
-        let time = t + stage.time * step;
-        self.reach(stage.slopes, step, time);
-        self.reduced.slopes(time, &mut self.stage, &mut self.slopes[at])
+        self.reach(stage.slopes, step);
+        self.reduced.slopes(t + stage.time * step, &mut self.stage, &mut self.slopes[at])
     }
 
-    /// Sets the differential unknowns of the stage at the time `t` in the span.
-    fn reach(&mut self, slopes: Row, step: f64, t: f64) {
+    /// Sets the differential unknowns of the stage.
+    fn reach(&mut self, slopes: Row, step: f64) {
         for (at, &unknown) in self.reduced.differential().iter().enumerate() {
             let sum: f64 = slopes.iter().map(|&(own, factor)| factor * self.slopes[own][at]).sum();
             self.stage[unknown] = self.before[unknown] + step * sum;
         }
-        self.shift(t);
-    }
-
-    /// Adds to the differential unknowns of the stage what driving functions have made of them by themselves up to the
-    /// time `t` in the span.
-    fn shift(&mut self, t: f64) {
-        let [start, now] = &mut self.shifts;
-        if now.is_empty() {
-            return;
-        }
-        self.reduced.shifts(t, now);
-        let shifts = now.iter().zip(start).map(|(now, start)| now - *start);
-        let unknowns = self.reduced.differential().iter();
-        unknowns.zip(shifts).for_each(|(&unknown, shift)| self.stage[unknown] += shift);
     }
 
     /// The estimate of the step's error in parts of the tolerance, from the solutions of order 5 and 3.
@@ -391,7 +315,6 @@ impl<'s> Integrator<'s> {
         for &node in nodes.nodes().get(1..DEGREE).unwrap_or_default() {
             let time = between(t, to, node);
             self.look((time - t) / step);
-            self.shift(time);
             self.reduced.balance(time, &mut self.stage)?;
             self.times.push(time);
             self.inside.extend_from_slice(&self.stage);
@@ -424,7 +347,7 @@ impl<'s> Integrator<'s> {
             walk.pieces.add_row(walk.system, *time, row);
         }
         walk.pieces.add_row(walk.system, to, &self.after);
-        walk.pieces.end_step(walk.system, if self.times.is_empty() { 1 } else { DEGREE });
+        walk.pieces.end_step(if self.times.is_empty() { 1 } else { DEGREE });
     }
 
     /// Finds the coefficients of the dense output.
@@ -433,15 +356,9 @@ impl<'s> Integrator<'s> {
         for (at, stage) in FURTHER.iter().enumerate() {
             self.stage(LAST + 1 + at, stage, (t, step))?;
         }
-        let unknowns = self.reduced.differential();
-        let sum = |at: usize| -> f64 {
-            END.iter().map(|&(own, factor)| factor * self.slopes[own][at]).sum()
-        };
-        let is_apart = !self.shifts[0].is_empty();
-        for (at, &unknown) in unknowns.iter().enumerate() {
-            let start = self.before[unknown];
-            let whole = self.after[unknown] - start;
-            let change = if is_apart { step * sum(at) } else { whole };
+        for (at, &unknown) in self.reduced.differential().iter().enumerate() {
+            let (start, change) =
+                (self.before[unknown], self.after[unknown] - self.before[unknown]);
             let bend = step * self.slopes[0][at] - change;
             let other = change - step * self.slopes[LAST][at] - bend;
             let known = [start, change, bend, other];
@@ -484,7 +401,7 @@ pub(in crate::methods) fn is_stiff(
     state: &[f64],
     (start, length): (f64, f64),
 ) -> bool {
-    let rates = Reduced::new(system, (start, start), &[]).rates(0.0, state);
+    let rates = Reduced::new(system, start).rates(0.0, state);
     rates.is_none_or(|rates| asks_for_many_steps(&rates, length, HOPELESS))
 }
 

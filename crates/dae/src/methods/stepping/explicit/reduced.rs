@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 use nalgebra_sparse::CsrMatrix;
 
-use super::{super::MOST_EXPLICIT, drives::Drives};
-use crate::{System, UnknownKind, Waveform, frequency::free_rates};
+use super::super::MOST_EXPLICIT;
+use crate::{System, UnknownKind, frequency::free_rates};
 
 /// Newton steps in a row.
 const STEPS: usize = 25;
@@ -19,7 +19,6 @@ pub(super) struct Reduced<'s> {
     system: &'s System,
     /// Start of the span, dimensionless.
     origin: f64,
-    drives: Drives<'s>,
     differential: Vec<usize>,
     algebraic: Vec<usize>,
     /// The place of each unknown among the algebraic ones.
@@ -50,12 +49,8 @@ pub(super) struct Rate {
 pub(super) struct Unbalanced;
 
 impl<'s> Reduced<'s> {
-    /// The equations over the span between two times, with the integrals of driving functions.
-    pub(super) fn new(
-        system: &'s System,
-        span: (f64, f64),
-        integrals: &'s [Option<Waveform>],
-    ) -> Self {
+    /// The equations over the span that begins at `origin`.
+    pub(super) fn new(system: &'s System, origin: f64) -> Self {
         let of_kind = |kind: UnknownKind| {
             let unknowns = system.unknowns.iter().enumerate();
             unknowns.filter(|own| own.1.kind == kind).map(|own| own.0).collect::<Vec<usize>>()
@@ -68,8 +63,7 @@ impl<'s> Reduced<'s> {
         let count = algebraic.len();
         let mut own = Self {
             system,
-            origin: span.0,
-            drives: Drives::new(system, span, integrals),
+            origin,
             differential: of_kind(UnknownKind::Differential),
             place,
             is_coupled,
@@ -101,25 +95,8 @@ impl<'s> Reduced<'s> {
         &self.differential
     }
 
-    /// Whether driving functions act [apart](Drives) from the slopes.
-    pub(super) fn is_driven_apart(&self) -> bool {
-        self.drives.are_apart()
-    }
-
-    /// What the driving functions that act apart have made of the differential unknowns, in their order, up to the time
-    /// `t` in the span, from the same start for all times.
-    pub(super) fn shifts(&mut self, t: f64, shifts: &mut [f64]) {
-        self.drives.integrals(self.origin + t, &mut self.inputs);
-        for (shift, &row) in shifts.iter_mut().zip(&self.differential) {
-            let given = entries(&self.system.input_matrix, row);
-            let given = given.filter(|&(at, _)| self.drives.is_apart(at));
-            *shift = given.map(|(at, factor)| factor * self.inputs[at]).sum();
-        }
-    }
-
     /// Solves the balances at the time `t` in the span for the algebraic entries of `y`, which are a first
-    /// guess; then the rates of the differential unknowns, in their order, are those of `slopes`, without what driving
-    /// functions add that act [apart](Self::shifts).
+    /// guess; then the rates of the differential unknowns, in their order, are those of `slopes`.
     pub(super) fn slopes(
         &mut self,
         t: f64,
@@ -131,7 +108,6 @@ impl<'s> Reduced<'s> {
         for (slope, &row) in slopes.iter_mut().zip(&self.differential) {
             let own = entries(&self.system.jacobian, row).map(|(at, factor)| factor * y[at]);
             let given = entries(&self.system.input_matrix, row);
-            let given = given.filter(|&(at, _)| !self.drives.is_apart(at));
             let given = given.map(|(at, factor)| factor * self.inputs[at]);
             *slope = own.sum::<f64>() + given.sum::<f64>();
         }
@@ -187,7 +163,7 @@ impl<'s> Reduced<'s> {
 
     /// Solves the balances alone.
     pub(super) fn balance(&mut self, t: f64, y: &mut [f64]) -> Result<(), Unbalanced> {
-        self.drives.values(self.origin + t, &mut self.inputs);
+        self.system.inputs_at(self.origin, self.origin + t, &mut self.inputs);
         if self.algebraic.is_empty() {
             return Ok(());
         }
@@ -316,7 +292,7 @@ mod tests {
         for problem in problems::all() {
             let system = &problem.system;
             let t = 0.3 * problem.t_end / system.time_scale;
-            let mut reduced = Reduced::new(system, (t, t), &[]);
+            let mut reduced = Reduced::new(system, t);
             let mut y = problem.exact(0.3 * problem.t_end);
             let exact = y.clone();
             for &at in &reduced.algebraic.clone() {
