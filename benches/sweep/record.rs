@@ -135,6 +135,11 @@ impl Knee {
     }
 
     /// Place and speed of the panel.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a time in the run is that of a row"
+    )]
     fn panel(&self, time: f64) -> [f64; 2] {
         let at = ((time / EVERY) as usize).min(ROWS - 2);
         let ([a, v, x], s) = (self.rows[at], time - at as f64 * EVERY);

@@ -162,7 +162,8 @@ fn a_fit_to_runs_that_lose_their_energy_claims_nothing() {
     let scene = "[nodes]\nhead = { mass = \"10 kg\", velocity = \"10 m/s\" }\n[elements]\n\
                  pad = { between = [\"head\", \"ground\"], parallel = [{ spring = \"1 MN/m\" }, { dashpot = \"0.632 N s/m\" }] }\n\
                  [run]\nduration = \"5 s\"\nmethods = [\"bdf\"]\nrtol = 1e-3\n";
-    let rows: String = (0..50).map(|at| format!("{},{}\n", 1e-4 * f64::from(at), at)).collect();
+    let rows: Vec<String> = (0..50).map(|at| format!("{},{at}", 1e-4 * f64::from(at))).collect();
+    let rows = rows.join("\n");
     let folder = TempDir::new().unwrap();
     let scene = file(&folder, "scene.toml", scene);
     let rows = file(&folder, "rows.csv", &format!("time [s],force [kN]\n{rows}"));

@@ -37,7 +37,7 @@ fn car() -> Vec<[f64; 3]> {
 
 /// The place of the car.
 fn place(car: &[[f64; 3]], t: f64) -> f64 {
-    let row = (1..60).filter(|&row| f64::from(row) * EVERY <= t).last().unwrap_or(0);
+    let row = (1..60).rfind(|&row| f64::from(row) * EVERY <= t).unwrap_or(0);
     let at = usize::try_from(row).unwrap();
     let (s, [place, speed, first]) = (t - f64::from(row) * EVERY, car[at]);
     let jerk = (car[at + 1][2] - first) / EVERY;
