@@ -1,6 +1,6 @@
 //! Energy taken up.
 
-use dashpot_dae::{MethodKind as _, Signal, methods::Exact};
+use dashpot_dae::Signal;
 use dashpot_network::{ConnectionOutputs, PrimitiveOutputs, parameters, parameters::WindowWish};
 
 use super::{MeasureKind, MeasureTraits, Reading, reading::moved};
@@ -60,7 +60,7 @@ fn work(solution: &Solution<'_>, (target, force): (usize, &Signal), span: &Span)
     let (value, error) = if span.length() <= 0.0 {
         (0.0, Some(0.0))
     } else if connection.has_layers
-        || solution.trajectory().method != Exact::KIND
+        || rate.error.is_none()
         || !solution.has_rate(connection)
         || has_only_springs(solution, connection)
     {
