@@ -313,6 +313,53 @@ fn a_measured_pulse_costs_few_steps_a_corner_wherever_the_pad_lets_go() {
     }
 }
 
+#[test]
+fn rows_of_noise_are_crossed_by_steps_as_long_as_without() {
+    for (rows, most) in [(600, 300), (2400, 300)] {
+        for gap in [0.0, 0.05] {
+            let scene = knee(rows, gap, 3.0);
+            let own = run_at(&scene, "dop853", Some(1e-6));
+            let steps = own.solver.statistics;
+            assert!(steps.accepted <= most, "{rows} rows, gap {gap}: {steps:?}");
+            assert!(steps.rejected <= most, "{rows} rows, gap {gap}: {steps:?}");
+        }
+    }
+}
+
+/// A mass on a soft pad, whose support is carried by a slight acceleration with a row every millisecond, and by rows from
+/// number `at` on that carry it away and back.
+fn carried(at: u32) -> String {
+    let row = |row: u32| {
+        let bump = match row.wrapping_sub(at) {
+            1 | 7 => 400.0,
+            3 | 5 => -400.0,
+            _ => 0.0,
+        };
+        format!("[{:?}, {:?}]", 1e-3 * f64::from(row), 1e-3 + bump)
+    };
+    let rows: Vec<String> = (0..=2000).map(row).collect();
+    format!(
+        "[nodes]\nm = {{ mass = 10 }}\nbase = {{ velocity = 0, acceleration = {{ table = [{}] }} }}\n[elements]\npad = {{ \
+         between = [\"base\", \"m\"], kelvin-voigt = {{ spring = 400, dashpot = 2 }} }}\n[measures]\npad = [{{ kind = \
+         \"peak-deformation\", window = \"run\" }}]\n[run]\nduration = 2\n",
+        rows.join(", ")
+    )
+}
+
+#[test]
+fn motions_that_come_back_are_not_missed_between_stages() {
+    for at in (0..12).map(|number| 1000 + 7 * number) {
+        let scene = carried(at);
+        let [right, own] = ["exact", "dop853"].map(|method| run(&scene, method));
+        let key = "pad.peak-deformation";
+        let ((right, _), (found, error)) = (value(&right, key), value(&own, key));
+        assert!((found - right).abs() <= 2.0 * error, "{at}: {found} ± {error:e}, {right}");
+        assert!(error < 1e-2 * right, "{at}: {found} ± {error:e}");
+        // Rows that carry it evenly ask for no steps.
+        assert!(own.solver.statistics.accepted < 400, "{at}: {:?}", own.solver.statistics);
+    }
+}
+
 /// A block on a pad before a plate on a mount; the mount, or the plate, is driven by so many rows of noise with a spike a
 /// row wide.
 fn noisy(rows: u32, drives: &str, unit: &str) -> String {

@@ -141,15 +141,27 @@ impl System {
 
     /// The times in `(0, end)` at which a driving function or one of its rates may jump, sorted, in dimensionless time.
     pub fn breakpoints(&self, end: f64) -> Vec<f64> {
-        let mut times: Vec<f64> = self
-            .waveforms
-            .iter()
-            .flat_map(Waveform::breakpoints)
-            .filter(|&t| t > 0.0 && t < end)
-            .collect();
-        times.sort_by(f64::total_cmp);
-        times.dedup();
-        times
+        inside(self.waveforms.iter().flat_map(Waveform::breakpoints).collect(), end)
+    }
+
+    /// Of these times those that no step of an explicit method may cross: there a driving function in the equations, its
+    /// rate or its curvature jumps. The motion that a measured acceleration makes of a support, lines that are integrated
+    /// twice, has such only where the acceleration itself jumps.
+    pub(crate) fn breaks(&self, end: f64) -> Vec<f64> {
+        let mut orders = vec![None; self.waveforms.len()];
+        for Input { waveform, derivative } in self.acting().map(|input| self.inputs[input]) {
+            orders[waveform] = orders[waveform].max(Some(2.max(derivative + 1)));
+        }
+        let all = self.waveforms.iter().zip(orders);
+        let broken = all.filter_map(|(waveform, order)| Some(waveform.breaks(order?)));
+        inside(broken.flatten().collect(), end)
+    }
+
+    /// The inputs in the equations, which others than outputs follow; some more than once.
+    pub(crate) fn acting(&self) -> impl Iterator<Item = usize> + '_ {
+        let arguments = self.terms.iter().flat_map(|term| &term.arguments);
+        let in_terms = arguments.flat_map(|own| own.inputs.terms().iter().map(|term| term.0));
+        self.input_matrix.triplet_iter().map(|entry| entry.1).chain(in_terms)
     }
 
     /// The dimensionless time in which driving functions change in a span between two of their breakpoints: the shortest
@@ -201,6 +213,12 @@ impl System {
         }
     }
 
+    /// When the next piece of a driving function begins after `t`; infinite where none does.
+    pub(crate) fn next_piece(&self, t: f64) -> f64 {
+        let next = |waveform: &Waveform| waveform.piece_until(t).1;
+        self.waveforms.iter().filter_map(next).fold(f64::INFINITY, f64::min)
+    }
+
     /// The input vector at dimensionless time `t`, on the piece that holds at `piece_time`
     /// (at a jump, the piece to take is not decided by `t`).
     pub fn inputs_at(&self, piece_time: f64, t: f64, w: &mut [f64]) {
@@ -209,6 +227,14 @@ impl System {
                 self.waveforms[input.waveform].piece_at(piece_time).derivative(input.derivative, t);
         }
     }
+}
+
+/// The times in `(0, end)`, sorted.
+fn inside(mut times: Vec<f64>, end: f64) -> Vec<f64> {
+    times.retain(|&time| time > 0.0 && time < end);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
 }
 
 /// A scalar law of two quantities, for instance a force of a deformation and its rate; SI units.

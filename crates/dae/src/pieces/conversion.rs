@@ -10,8 +10,11 @@ use super::{
 /// The matrices that make coefficients of the values of any output in the rows of steps, one after the other.
 #[derive(Debug, Default)]
 pub(super) struct Conversions {
-    /// Of each step `weights[j][k]`: `c_k = Σ_j weights[j][k] v_j`.
+    /// Of each step `weights[j][k]`: `c_k = Σ_j weights[j][k] v_j`; of none whose rows are where the
+    /// [interpolation](Interpolation) has its nodes.
     weights: Vec<f64>,
+    /// Whether a step's are among them.
+    are_own: Vec<bool>,
 }
 
 impl Conversions {
@@ -20,8 +23,9 @@ impl Conversions {
         let count = nodes.len();
         let interpolation = Interpolation::of_degree(count - 1);
         let places = interpolation.nodes().iter().map(|&node| between(start, end, node));
-        if places.eq(nodes.iter().copied()) {
-            interpolation.rows().for_each(|row| self.weights.extend_from_slice(row));
+        let is_own = !places.eq(nodes.iter().copied());
+        self.are_own.push(is_own);
+        if !is_own {
             return;
         }
         let lagrange = Lagrange::new(nodes);
@@ -40,31 +44,35 @@ impl Conversions {
 
     /// The matrices in order, for one to be taken at each step.
     pub(super) fn reader(&self) -> Reader<'_> {
-        Reader { left: &self.weights }
+        Reader { left: &self.weights, are_own: self.are_own.iter() }
     }
 }
 
 /// The matrices of the steps that are still to come.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Reader<'c> {
     left: &'c [f64],
+    are_own: std::slice::Iter<'c, bool>,
 }
 
 impl Reader<'_> {
     /// The coefficients of the next step's polynomial, which has these values in its rows.
     pub(super) fn coefficients(&mut self, values: &[f64]) -> Coefficients {
         let count = values.len();
-        let (own, left) = self.left.split_at(count * count);
-        self.left = left;
         // A constant is the same in all rows: what is converted are distances from it, which steps that
         // are short beside their rows' distances leave free of its rounding.
         let constant = values[count - 1];
         let mut sums = [0.0; HIGHEST + 1];
-        for (value, weights) in values.iter().zip(own.chunks_exact(count)) {
+        let mut add = |(value, weights): (&f64, &[f64])| {
             let distance = value - constant;
-            for (sum, weight) in sums.iter_mut().zip(weights) {
-                *sum += weight * distance;
-            }
+            sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight * distance);
+        };
+        if self.are_own.next() == Some(&true) {
+            let (own, left) = self.left.split_at(count * count);
+            self.left = left;
+            values.iter().zip(own.chunks_exact(count)).for_each(&mut add);
+        } else {
+            values.iter().zip(Interpolation::of_degree(count - 1).rows()).for_each(&mut add);
         }
         sums[0] += constant;
         sums[..count].into()

@@ -32,9 +32,10 @@ const MOST_CONVERTED: usize = 4096;
 /// `origin`, so that steps far below the resolution of the time of day are told apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Step {
-    /// Start of the smooth span that the step belongs to; the driving functions' pieces that hold
-    /// from there on hold in the step.
+    /// Start of the smooth span that the step belongs to.
     origin: f64,
+    /// The driving functions' pieces that hold from this time on hold at the start of the step.
+    from: f64,
     start: f64,
     end: f64,
     /// First of `degree + 1` rows.
@@ -64,6 +65,8 @@ pub(crate) struct Pieces {
     /// From the rows of each step to coefficients, once an output of the whole run was asked for.
     conversions: OnceLock<Conversions>,
     origin: f64,
+    /// See [`Step::from`], of the next step.
+    from: f64,
     /// The first row of the span.
     first: usize,
     /// Time that the steps of the span have reached.
@@ -99,6 +102,7 @@ impl Pieces {
             steps: Vec::new(),
             conversions: OnceLock::new(),
             origin: 0.0,
+            from: 0.0,
             first: 0,
             reached: 0.0,
             t_end: f64::INFINITY,
@@ -116,9 +120,9 @@ impl Pieces {
     pub(crate) fn begin(&mut self, system: &System, origin: f64, state: &[f64]) {
         if let Some(stream) = &mut self.stream {
             stream.settle(system, &self.times);
-            stream.begin(system, (self.origin, origin), state);
+            stream.begin(system, (self.from, origin), state);
         }
-        self.origin = origin;
+        (self.origin, self.from) = (origin, origin);
         self.reached = 0.0;
         self.first = self.times.len();
         self.add_row(system, 0.0, state);
@@ -139,21 +143,22 @@ impl Pieces {
 
     /// Ends a step at the last row. Its polynomial has this degree, or a lower one where the span has
     /// not enough rows, and passes through the last rows.
-    pub(crate) fn end_step(&mut self, degree: usize) {
+    pub(crate) fn end_step(&mut self, system: &System, degree: usize) {
         let last = self.times.len() - 1;
         let degree = degree.min(last - self.first).min(lagrange::HIGHEST);
         let end = self.times[last];
-        let first = last - degree;
-        self.add_step(Step { origin: self.origin, start: self.reached, end, first, degree });
+        self.add_step(system, (last - degree, degree), end);
     }
 
     /// Adds a step up to `end` in which no unknown moves.
-    pub(crate) fn rest(&mut self, end: f64) {
-        let first = self.times.len() - 1;
-        self.add_step(Step { origin: self.origin, start: self.reached, end, first, degree: 0 });
+    pub(crate) fn rest(&mut self, system: &System, end: f64) {
+        self.add_step(system, (self.times.len() - 1, 0), end);
     }
 
-    fn add_step(&mut self, step: Step) {
+    fn add_step(&mut self, system: &System, (first, degree): (usize, usize), end: f64) {
+        let Self { origin, from, reached: start, .. } = *self;
+        let step = Step { origin, from, start, end, first, degree };
+        self.from = step.last_piece(system);
         self.reached = step.end;
         self.steps.push(step);
         if let Some(stream) = &mut self.stream {

@@ -143,19 +143,22 @@ impl Products {
 
     /// The same for products with driving functions in them, at as many points as these ask for.
     fn add_driven(&mut self, system: &System, step: &Step, lagrange: &Lagrange<'_>, rows: &[&Row]) {
-        let (degree, parts) = inputs::resolution(system, step);
-        let rule = GaussLegendre::with_points(degree + 1);
         let first = self.squares.len() + 2 * self.pairs.len();
         let count = self.driven.len();
         let mut given = vec![0.0; system.inputs.len()];
         let mut work = vec![0.0; count];
-        let length = (step.end - step.start) / parts as f64;
-        for part in 0..parts {
-            let start = step.start + length * part as f64;
-            for (&x, weight) in rule.nodes().iter().zip(rule.weights()) {
+        for section in step.pieces(system) {
+            let (degree, parts) = inputs::resolution(system, step, &section);
+            let rule = GaussLegendre::with_points(degree + 1);
+            let length = (section.end - section.start) / parts as f64;
+            let points = || rule.nodes().iter().zip(rule.weights());
+            for (part, (&x, weight)) in
+                (0..parts).flat_map(|part| points().map(move |own| (part, own)))
+            {
+                let start = section.start + length * part as f64;
                 let time = between(start, start + length, x);
                 let point = Point { weight: 0.5 * length * weight, shares: lagrange.weights(time) };
-                system.inputs_at(step.origin, step.origin + time, &mut given);
+                system.inputs_at(section.from, step.origin + time, &mut given);
                 for (at, (work, (_, forms))) in work.iter_mut().zip(&self.driven).enumerate() {
                     let one = point.value(rows, first + at) + forms[0].at(&given);
                     let other = point.value(rows, first + count + at) + forms[1].at(&given);

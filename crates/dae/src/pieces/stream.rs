@@ -37,13 +37,13 @@ impl Stream {
         }
     }
 
-    /// Begins a smooth span; `origins` are those of the span before and of this one.
-    pub(super) fn begin(&mut self, system: &System, (before, origin): (f64, f64), state: &[f64]) {
+    /// Begins a smooth span; the driving functions' pieces at the end of the one before began at `from`.
+    pub(super) fn begin(&mut self, system: &System, (from, origin): (f64, f64), state: &[f64]) {
         let after = Instant::new(system, state.to_vec(), (origin, origin));
         match self.recent.pop_back() {
             None => self.digest.first = after,
             Some(last) if !self.part.jumps.is_empty() => {
-                let before = Instant::new(system, last.state, (before, origin));
+                let before = Instant::new(system, last.state, (from, origin));
                 self.add_jumps(system, origin, [&before, &after]);
             }
             Some(_) => {}
@@ -93,7 +93,7 @@ impl Stream {
                 state.iter_mut().zip(&row.state).for_each(|(sum, value)| *sum += weight * value);
             }
             let time = step.origin + step.end;
-            self.digest.last = Instant::new(system, state, (step.origin, time));
+            self.digest.last = Instant::new(system, state, (step.last_piece(system), time));
         }
         self.settle(system, times);
         self.recent = VecDeque::new();

@@ -148,7 +148,7 @@ pub(super) fn follow(
             pieces.begin(system, 0.0, &row);
         }
     }
-    pieces.end_step(ORDERS);
+    pieces.end_step(system, ORDERS);
     let whole = predicted.length * system.time_scale;
     let signal = |(at, guard): (usize, &Guard)| {
         if at == predicted.guard {

@@ -4,6 +4,9 @@ mod piece;
 
 pub use piece::Piece;
 
+/// Part of a derivative that it may jump by from rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A function of time made of smooth pieces; it may jump, or have a kink, where they meet.
 ///
 /// Cubics and sines are what the exact method can follow without quadrature; a sine whose frequency
@@ -70,6 +73,36 @@ impl Waveform {
     pub(crate) fn piece_until(&self, t: f64) -> (&Piece, Option<f64>) {
         let at = self.index_at(t);
         (&self.pieces[at], self.pieces.get(at + 1).map(|next| next.start))
+    }
+
+    /// The first and the last of the pieces that hold anywhere on `[start, end)`.
+    pub(crate) fn range(&self, start: f64, end: f64) -> (usize, usize) {
+        let first = self.index_at(start);
+        let later = self.pieces[first + 1..].partition_point(|piece| piece.start < end);
+        (first, first + later)
+    }
+
+    /// The piece of those in this range that holds at `t`; the outer ones go on beyond it.
+    pub(crate) fn piece_of(&self, (first, last): (usize, usize), t: f64) -> &Piece {
+        let later = || self.pieces[first + 1..=last].partition_point(|piece| piece.start <= t);
+        &self.pieces[if first == last { first } else { first + later() }]
+    }
+
+    /// The times at which a derivative of up to this order jumps by more than rounding, an oscillation begins or ends,
+    /// or a motion that is not uniform.
+    pub(crate) fn breaks(&self, order: u32) -> impl Iterator<Item = f64> + '_ {
+        let is_broken = move |pair: &&[Piece]| {
+            let [before, after] = [&pair[0], &pair[1]];
+            let jumps = |order| {
+                let [one, other] = [before, after].map(|own| own.derivative(order, after.start));
+                (one - other).abs() > ROUNDING * one.abs().max(other.abs())
+            };
+            before.is_wave()
+                || after.is_wave()
+                || before.is_constant(1) != after.is_constant(1)
+                || (0..=order).any(jumps)
+        };
+        self.pieces.windows(2).filter(is_broken).map(|pair| pair[1].start)
     }
 
     /// The value at `t`, from the right where the function jumps.

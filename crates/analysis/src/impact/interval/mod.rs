@@ -102,7 +102,7 @@ impl Impact {
     pub(crate) fn of_push(force: &Signal, run: Self, threshold: f64) -> Self {
         let run_end = run.end;
         let parted = rest_after(force, run.start);
-        let released = release(force, run_end, threshold)
+        let released = release(force, (pushed(force, run.start, threshold), run_end), threshold)
             .filter(|release| parted.is_none_or(|parted| release.time < parted));
         match (parted, released) {
             (Some(parted), None) => {
@@ -337,9 +337,8 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     let mut open: Option<(f64, f64)> = None;
     for panel in &force.panels {
         if !rests(panel) {
-            let size: f64 = panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum();
             let (start, most) = open.unwrap_or((panel.start, 0.0));
-            open = Some((start, most.max(size)));
+            open = Some((start, most.max(size(panel))));
         } else if panel.length() > 0.0
             && let Some((start, most)) = open.take()
             && most > floor
@@ -363,9 +362,19 @@ pub(crate) fn first_felt<'b>(
     jumps.iter().find(|jump| jump.impulse.abs() > SMALLEST_JUMP * size)
 }
 
-/// When a force that is zero at first begins to act \[s\].
+/// When a force that is zero at first, or that rounding alone makes, begins to act \[s\]. One that grows from nothing at
+/// once is below rounding for a moment as well, which is short beside the panel that follows.
 fn first_load(force: &Signal) -> Option<f64> {
-    pushes(force).first().map(|push| push.start)
+    let start = pushes(force).first()?.start;
+    let quiet = force.panels.iter().take_while(|panel| size(panel) <= force.noise).count();
+    let (quiet, loud) = force.panels.split_at(quiet);
+    let rests = |end: f64| loud.first().is_some_and(|first| end > first.length());
+    Some(quiet.last().filter(|last| rests(last.end)).map_or(start, |last| start.max(last.end)))
+}
+
+/// A bound of the magnitude of the force over a panel.
+fn size(panel: &Panel) -> f64 {
+    panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum()
 }
 
 /// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.
@@ -379,9 +388,19 @@ fn rests(panel: &Panel) -> bool {
     panel.coefficients.iter().all(|coefficient| *coefficient == 0.0)
 }
 
-/// The last passage of zero before the force pulls for the first time.
-fn release(force: &Signal, run_end: f64, threshold: f64) -> Option<Crossing> {
-    let window = (0.0, run_end);
+/// From when on a force that pushes first may have been released: before it has been more than slight, passages of zero
+/// are those of a rest, or of a pull that does not count either.
+fn pushed(force: &Signal, start: f64, threshold: f64) -> f64 {
+    let window = (start, force.end());
+    let floor = (SLIGHT * force.maximum(window).value).max(force.noise);
+    if threshold >= NO_PULL || force.value(start) > floor {
+        return start;
+    }
+    force.first_crossing(floor, window, Some(true)).map_or(start, |own| own.time)
+}
+
+/// The last passage of zero before the force pulls for the first time in a window.
+fn release(force: &Signal, window: (f64, f64), threshold: f64) -> Option<Crossing> {
     let floor = if threshold > 0.0 { threshold * force.bound() } else { 0.0 };
     if floor <= force.noise {
         return force.first_crossing(0.0, window, Some(false));

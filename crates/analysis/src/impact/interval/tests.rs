@@ -62,6 +62,23 @@ fn touch_of_rounding_before_the_push_is_none() {
 }
 
 #[test]
+fn ripples_and_slight_pulls_before_the_push_are_no_release() {
+    let force = polygon(&[0.0, 1e-9, -0.2, 100.0, -5.0]);
+    let impact = Impact::of_force(&force, 4.0, 0.0);
+    assert_eq!((impact.start, impact.contact), (0.0, Contact::Released));
+    assert!((impact.end - (3.0 + 100.0 / 105.0)).abs() < 1e-12, "{}", impact.end);
+    let early = polygon(&[0.0, 2.0, -0.2, 100.0, -5.0]);
+    let end = Impact::of_force(&early, 4.0, 0.0).end;
+    assert!((end - (1.0 + 2.0 / 2.2)).abs() < 1e-12, "{end}");
+}
+
+#[test]
+fn what_rounding_makes_of_a_rest_is_no_contact() {
+    let force = polygon(&[1e-14, -1e-14, 1e-14, 100.0, -5.0]);
+    assert_eq!(Impact::of_force(&force, 4.0, 0.0).start, 2.0);
+}
+
+#[test]
 fn light_touch_is_one_from_a_thousandth_of_the_largest_on() {
     let touch = |light: f64| {
         let force = polygon(&[0.0, light, 0.0, 0.0, 100.0, 0.0, 0.0]);

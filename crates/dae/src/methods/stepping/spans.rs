@@ -74,6 +74,7 @@ fn integrate_in<S: Scheme>(
         further: 0,
         statistics: Statistics::default(),
         span: (0.0, 0.0),
+        corners: system.breakpoints(run.t_end / system.time_scale),
         control: Control::default(),
         state: system.initial.clone(),
     };
@@ -144,7 +145,7 @@ impl Walk<'_> {
     fn borders(&self, order: usize) -> Vec<f64> {
         let end = self.run.t_end / self.system.time_scale;
         let mut borders = vec![0.0];
-        borders.extend(self.system.breakpoints(end));
+        borders.extend_from_slice(&self.corners);
         borders.push(end);
         if order < 2 || self.system.is_linear() {
             return borders;
@@ -178,7 +179,7 @@ impl Walk<'_> {
                 // A part that a rounding swallows would not end.
                 at = if at + part > at { (at + part).min(span[1]) } else { span[1] };
                 part *= 2.0;
-                self.pieces.rest(at - span[0]);
+                self.pieces.rest(self.system, at - span[0]);
                 self.report(at * self.system.time_scale)?;
                 if at >= span[1] {
                     break;
@@ -245,36 +246,40 @@ impl Walk<'_> {
         let mut balance = Balance::<M>::new(self.system)?;
         let mut outcome = Ok(());
         let mut restarts = 0;
-        let borders = match S::INTEGRATOR {
-            // Its steps are judged by the algebraic unknowns as well.
-            Integrator::Dop853 => self.borders(1),
-            _ => self.borders(S::ORDER),
-        };
+        let end = self.run.t_end / self.system.time_scale;
+        let is_explicit = matches!(S::INTEGRATOR, Integrator::Dop853);
+        // The steps of dop853 are judged by the algebraic unknowns as well.
+        let borders = self.borders(if is_explicit { 1 } else { S::ORDER });
+        let breaks = if is_explicit { self.system.breaks(end) } else { Vec::new() };
         let mut integrator = self.integrator::<S>();
-        for span in borders.windows(2) {
-            self.span = (span[0], span[1]);
+        let (mut at, mut is_stuck) = (0.0, false);
+        while at < end {
+            self.span.0 = at;
             // The explicit method looks at the stiffness by itself as long as it makes progress.
-            if !matches!(integrator, Integrator::Dop853) {
+            if !(is_stuck || matches!(integrator, Integrator::Dop853)) {
                 integrator = self.integrator::<S>();
             }
-            loop {
-                outcome = self.span::<S, M>(integrator, &mut problem, &mut balance);
-                let Err(Stop::Stuck { at, .. }) = outcome else { break };
-                if matches!(integrator, Integrator::Dop853) {
-                    integrator = Integrator::Bdf;
-                } else if balance.is_some() && at > 0.0 && restarts < MOST_RESTARTS {
-                    restarts += 1;
-                } else {
-                    break;
-                }
-                if self.span.0 + at >= self.span.1 {
-                    break;
-                }
-                self.span.0 += at;
+            let list = if matches!(integrator, Integrator::Dop853) { &breaks } else { &borders };
+            let next = list.partition_point(|&border| border <= at);
+            self.span.1 = list.get(next).copied().unwrap_or(end);
+            outcome = self.span::<S, M>(integrator, &mut problem, &mut balance);
+            is_stuck = matches!(outcome, Err(Stop::Stuck { .. }));
+            if outcome.is_ok() {
+                at = self.span.1;
+                continue;
             }
-            if outcome.is_err() {
+            let Err(Stop::Stuck { at: reached, .. }) = &outcome else { break };
+            if matches!(integrator, Integrator::Dop853) {
+                integrator = Integrator::Bdf;
+            } else if balance.is_some() && *reached > 0.0 && restarts < MOST_RESTARTS {
+                restarts += 1;
+            } else {
                 break;
             }
+            if self.span.0 + reached >= self.span.1 {
+                break;
+            }
+            at = self.span.0 + reached;
         }
         let (factorizations, solves) = balance.as_ref().map_or((0, 0), Balance::work);
         self.statistics.factorizations += factorizations;

@@ -34,6 +34,8 @@ pub(in crate::methods) struct Walk<'r> {
     pub(super) statistics: Statistics,
     /// Start and end of the current span, dimensionless.
     pub(super) span: (f64, f64),
+    /// The times at which another piece of a driving function begins, dimensionless.
+    pub(super) corners: Vec<f64>,
     /// What the explicit method knows from the spans before.
     pub(super) control: Control,
     /// The unknowns at the end of the last span, or where the integrator got stuck in it.
@@ -125,7 +127,7 @@ impl Walk<'_> {
                 }
             };
             self.pieces.add_row(self.system, t, state.y.slice());
-            self.pieces.end_step(degree);
+            self.pieces.end_step(self.system, degree);
             before = state.t;
             self.report(site.time)?;
             if reached {

@@ -3,6 +3,7 @@
 //! Every stage solves the balances, so that algebraic unknowns need no equations of their own. The dense
 //! output is a polynomial of degree 7 in the differential unknowns; the others follow from it.
 
+mod drives;
 mod reduced;
 
 use dashpot_numerics::{
@@ -24,6 +25,8 @@ const GROWTH: (f64, f64) = (1.0 / 3.0, 6.0);
 /// The longest step in parts of a span between corners at the tolerance [`COARSE`]: errors fall by its power of the order
 /// where it limits the steps, and half of a span is short enough for that to be seen.
 const OF_SPAN: f64 = 0.5;
+/// A step crosses corners where it holds so many of them: to end at a single one costs no more, and is exact.
+const CROSSED: usize = 2;
 /// The longest step in periods of the fastest driving function at the tolerance [`COARSE`]: a longer one might miss it.
 const OF_PERIOD: f64 = 0.25;
 /// Part of a step whose balances have no solution that is tried next.
@@ -79,11 +82,53 @@ pub(super) fn span(
     first: f64,
     tolerance: (f64, &[f64]),
 ) -> Result<(), Stop> {
-    let mut own = Integrator::new(walk.system, walk.span.0, state);
+    let mut own = Integrator::new(walk.system, walk.span, state);
     let length = walk.span.1 - walk.span.0;
     let outcome = own.advance(walk, (first, length), tolerance);
     walk.statistics.rhs_calls += own.reduced.calls;
     outcome
+}
+
+/// The corners within a span at which a step may end, or which it may cross.
+struct Corners {
+    /// When they come, counted from the start of the span; at last its end.
+    times: Vec<f64>,
+    /// The next one, and the one before.
+    next: usize,
+    before: f64,
+}
+
+impl Corners {
+    fn of(walk: &Walk<'_>) -> Self {
+        let (start, end) = walk.span;
+        let first = walk.corners.partition_point(|&time| time <= start);
+        let inside = walk.corners[first..].iter().take_while(|&&time| time < end);
+        let times = inside.map(|time| time - start).chain([end - start]).collect();
+        Self { times, next: 0, before: 0.0 }
+    }
+
+    /// The step that is wanted behind one of this length and error that has been cut from what was wanted: where corners may be
+    /// crossed it grows as the error lets it.
+    fn kept(&self, (wanted, step): (f64, f64), error: Option<f64>) -> f64 {
+        let own = error.map_or(wanted, |error| SAFETY * step * error.powf(-0.125));
+        if self.times.len() > 1 { own.clamp(wanted, GROWTH.1 * wanted) } else { wanted }
+    }
+
+    /// The borders between which a step of this length from `t` on is to end: the corners beside it, or those of the span where
+    /// many lie within it.
+    fn around(&mut self, t: f64, step: f64) -> (f64, f64) {
+        let last = self.times.len() - 1;
+        while self.next < last && self.times[self.next] <= t {
+            self.before = self.times[self.next];
+            self.next += 1;
+        }
+        let crossed = self.times.get(self.next + CROSSED - 1);
+        if crossed.is_some_and(|&corner| corner < t + step) {
+            (f64::NEG_INFINITY, self.times[last])
+        } else {
+            (self.before, self.times[self.next])
+        }
+    }
 }
 
 /// What limits the steps, from span to span.
@@ -147,8 +192,8 @@ impl Control {
 }
 
 impl<'s> Integrator<'s> {
-    fn new(system: &'s System, start: f64, state: &[f64]) -> Self {
-        let reduced = Reduced::new(system, start);
+    fn new(system: &'s System, span: (f64, f64), state: &[f64]) -> Self {
+        let reduced = Reduced::new(system, span);
         let count = reduced.differential().len();
         Self {
             reduced,
@@ -180,17 +225,20 @@ impl<'s> Integrator<'s> {
         let share = share(tolerance.0);
         control.longest = LONGEST * share;
         // Where corners limit the steps, and not their errors, they would be the same at all tolerances.
-        let of_span = OF_SPAN * (tolerance.0 / COARSE).powf(0.125);
-        let limit = if length < end { of_span * length } else { length };
+        let of_gap = OF_SPAN * (tolerance.0 / COARSE).powf(0.125);
+        let mut corners = Corners::of(walk);
         let mut wanted = control.step.unwrap_or(first);
         let mut t = 0.0;
         while t < length {
             let driven = system.period((start + t, start + (t + wanted).min(length)));
-            let mut step = wanted.min(limit).min(OF_PERIOD * share * driven);
-            if t + (1.0 + STRETCH) * step >= length {
-                step = length - t;
+            let wave = OF_PERIOD * share * driven;
+            let (before, border) = corners.around(t, wanted.min(wave));
+            let gap = border - before;
+            let mut step = wanted.min(if gap < end { of_gap * gap } else { gap }).min(wave);
+            if t + (1.0 + STRETCH) * step >= border {
+                step = border - t;
             }
-            let to = if step < length - t { t + step } else { length };
+            let to = if step < border - t { t + step } else { border };
             if t + 0.1 * step <= t || step.is_nan() {
                 return Err(self.stuck(walk, t, site(t)));
             }
@@ -217,8 +265,10 @@ impl<'s> Integrator<'s> {
                 let (work, time) = (walk.run.budget.done(), site(t).time);
                 return Err(SolveError::BudgetSpent { method, time, work }.into());
             }
-            // What cuts a step is no reason for a shorter one behind it.
-            let kept = if is_accepted { wanted.min(control.longest / control.rate) } else { 0.0 };
+            // What cuts a step is no reason for a shorter one behind it, nor that corners are not crossed.
+            let longest = control.longest / control.rate;
+            let kept =
+                if is_accepted { corners.kept((wanted, step), error).min(longest) } else { 0.0 };
             wanted = if step < wanted { kept.max(step * factor) } else { step * factor };
         }
         walk.control = Control { step: Some(wanted), ..control };
@@ -253,7 +303,12 @@ impl<'s> Integrator<'s> {
             self.reduced.slopes(to, &mut self.after, &mut self.slopes[LAST])?;
             self.shown = self.rate();
             self.look_inside((t, step), to)?;
-            return Ok(error.max(self.error_inside(tolerance)));
+            let inside = self.error_inside(tolerance).max(self.error_of_corners(
+                (t, step),
+                to,
+                tolerance,
+            )?);
+            return Ok(error.max(inside));
         }
         Ok(error)
     }
@@ -341,13 +396,41 @@ impl<'s> Integrator<'s> {
         self.reduced.algebraic().iter().map(error).fold(0.0, f64::max)
     }
 
+    /// What the stages of a step miss of the driving functions' corners within it, in parts of the tolerance: by how much
+    /// balanced unknowns and, over the step, the slopes are others where a function is farthest from a polynomial as smooth as
+    /// the dense output. What comes and goes between stages would not show otherwise.
+    fn error_of_corners(
+        &mut self,
+        (t, step): (f64, f64),
+        to: f64,
+        (rtol, atol): (f64, &[f64]),
+    ) -> Result<f64, Unbalanced> {
+        let mut error = 0.0_f64;
+        for excursion in self.reduced.excursions((t, to), DEGREE) {
+            self.look((excursion.time - t) / step);
+            let [own, other] = &mut self.slopes[LAST + 1..=LAST + 2] else { return Ok(error) };
+            self.reduced.slopes(excursion.time, &mut self.stage, own)?;
+            let mut without = self.stage.clone();
+            self.reduced.slopes_without(&excursion, &mut without, other)?;
+            let unit = |unknown: usize| {
+                atol[unknown] + rtol * self.before[unknown].abs().max(self.after[unknown].abs())
+            };
+            let slopes = self.reduced.differential().iter().zip(own.iter().zip(other));
+            let slopes = slopes.map(|(&at, (own, other))| step * (*own - *other).abs() / unit(at));
+            let balanced = self.reduced.algebraic().iter();
+            let balanced = balanced.map(|&at| (self.stage[at] - without[at]).abs() / unit(at));
+            error = slopes.chain(balanced).fold(error, f64::max);
+        }
+        Ok(error)
+    }
+
     /// Hands a step that ends at `to` to `walk`.
     fn add_rows(&self, walk: &mut Walk<'_>, to: f64) {
         for (time, row) in self.times.iter().zip(self.inside.chunks_exact(self.before.len())) {
             walk.pieces.add_row(walk.system, *time, row);
         }
         walk.pieces.add_row(walk.system, to, &self.after);
-        walk.pieces.end_step(if self.times.is_empty() { 1 } else { DEGREE });
+        walk.pieces.end_step(walk.system, if self.times.is_empty() { 1 } else { DEGREE });
     }
 
     /// Finds the coefficients of the dense output.
@@ -401,7 +484,7 @@ pub(in crate::methods) fn is_stiff(
     state: &[f64],
     (start, length): (f64, f64),
 ) -> bool {
-    let rates = Reduced::new(system, start).rates(0.0, state);
+    let rates = Reduced::new(system, (start, start)).rates(0.0, state);
     rates.is_none_or(|rates| asks_for_many_steps(&rates, length, HOPELESS))
 }
 

@@ -3,7 +3,10 @@
 use nalgebra::DMatrix;
 use nalgebra_sparse::CsrMatrix;
 
-use super::super::MOST_EXPLICIT;
+use super::{
+    super::MOST_EXPLICIT,
+    drives::{Drives, Excursion},
+};
 use crate::{System, UnknownKind, frequency::free_rates};
 
 /// Newton steps in a row.
@@ -19,6 +22,7 @@ pub(super) struct Reduced<'s> {
     system: &'s System,
     /// Start of the span, dimensionless.
     origin: f64,
+    drives: Drives<'s>,
     differential: Vec<usize>,
     algebraic: Vec<usize>,
     /// The place of each unknown among the algebraic ones.
@@ -49,8 +53,8 @@ pub(super) struct Rate {
 pub(super) struct Unbalanced;
 
 impl<'s> Reduced<'s> {
-    /// The equations over the span that begins at `origin`.
-    pub(super) fn new(system: &'s System, origin: f64) -> Self {
+    /// The equations over the span between two times.
+    pub(super) fn new(system: &'s System, span: (f64, f64)) -> Self {
         let of_kind = |kind: UnknownKind| {
             let unknowns = system.unknowns.iter().enumerate();
             unknowns.filter(|own| own.1.kind == kind).map(|own| own.0).collect::<Vec<usize>>()
@@ -63,7 +67,8 @@ impl<'s> Reduced<'s> {
         let count = algebraic.len();
         let mut own = Self {
             system,
-            origin,
+            origin: span.0,
+            drives: Drives::new(system, span),
             differential: of_kind(UnknownKind::Differential),
             place,
             is_coupled,
@@ -105,13 +110,40 @@ impl<'s> Reduced<'s> {
     ) -> Result<(), Unbalanced> {
         self.calls += 1;
         self.balance(t, y)?;
+        self.rates_at(y, slopes);
+        Ok(())
+    }
+
+    /// The same if an input were what the polynomial is that it is farthest from.
+    pub(super) fn slopes_without(
+        &mut self,
+        excursion: &Excursion,
+        y: &mut [f64],
+        slopes: &mut [f64],
+    ) -> Result<(), Unbalanced> {
+        self.calls += 1;
+        self.drives.values(self.origin + excursion.time, &mut self.inputs);
+        self.inputs[excursion.input] = excursion.smooth;
+        self.balance_inputs(y)?;
+        self.rates_at(y, slopes);
+        Ok(())
+    }
+
+    /// See [`Drives::excursions`]; the times are those in the span.
+    pub(super) fn excursions(&self, (start, end): (f64, f64), degree: usize) -> Vec<Excursion> {
+        let whole = (self.origin + start, self.origin + end);
+        let in_span = |own: Excursion| Excursion { time: own.time - self.origin, ..own };
+        self.drives.excursions(whole, degree).map(in_span).collect()
+    }
+
+    /// The rates where balances are solved for the inputs as they are.
+    fn rates_at(&self, y: &[f64], slopes: &mut [f64]) {
         for (slope, &row) in slopes.iter_mut().zip(&self.differential) {
             let own = entries(&self.system.jacobian, row).map(|(at, factor)| factor * y[at]);
             let given = entries(&self.system.input_matrix, row);
             let given = given.map(|(at, factor)| factor * self.inputs[at]);
             *slope = own.sum::<f64>() + given.sum::<f64>();
         }
-        Ok(())
     }
 
     /// The rates of the linearised equations at the time `t` in the span, where the
@@ -163,7 +195,12 @@ impl<'s> Reduced<'s> {
 
     /// Solves the balances alone.
     pub(super) fn balance(&mut self, t: f64, y: &mut [f64]) -> Result<(), Unbalanced> {
-        self.system.inputs_at(self.origin, self.origin + t, &mut self.inputs);
+        self.drives.values(self.origin + t, &mut self.inputs);
+        self.balance_inputs(y)
+    }
+
+    /// The same for the inputs as they are.
+    fn balance_inputs(&mut self, y: &mut [f64]) -> Result<(), Unbalanced> {
         if self.algebraic.is_empty() {
             return Ok(());
         }
@@ -292,7 +329,7 @@ mod tests {
         for problem in problems::all() {
             let system = &problem.system;
             let t = 0.3 * problem.t_end / system.time_scale;
-            let mut reduced = Reduced::new(system, t);
+            let mut reduced = Reduced::new(system, (t, t));
             let mut y = problem.exact(0.3 * problem.t_end);
             let exact = y.clone();
             for &at in &reduced.algebraic.clone() {
