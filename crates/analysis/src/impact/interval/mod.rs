@@ -362,14 +362,13 @@ pub(crate) fn first_felt<'b>(
     jumps.iter().find(|jump| jump.impulse.abs() > SMALLEST_JUMP * size)
 }
 
-/// When a force that is zero at first, or that rounding alone makes, begins to act \[s\]. One that grows from nothing at
-/// once is below rounding for a moment as well, which is short beside the panel that follows.
+/// When a force that is zero at first, or for long nothing but rounding, begins to act \[s\]. For less than the part
+/// [`SLIGHT`] of the run one that grows from the start on as a power of time may be below rounding as well.
 fn first_load(force: &Signal) -> Option<f64> {
     let start = pushes(force).first()?.start;
-    let quiet = force.panels.iter().take_while(|panel| size(panel) <= force.noise).count();
-    let (quiet, loud) = force.panels.split_at(quiet);
-    let rests = |end: f64| loud.first().is_some_and(|first| end > first.length());
-    Some(quiet.last().filter(|last| rests(last.end)).map_or(start, |last| start.max(last.end)))
+    let quiet = force.panels.iter().take_while(|panel| size(panel) <= force.noise).last();
+    let rest = quiet.map(|last| last.end).filter(|end| *end > SLIGHT * force.end());
+    Some(rest.map_or(start, |end| start.max(end)))
 }
 
 /// A bound of the magnitude of the force over a panel.

@@ -27,6 +27,9 @@ const GROWTH: (f64, f64) = (1.0 / 3.0, 6.0);
 const OF_SPAN: f64 = 0.5;
 /// A step crosses corners where it holds so many of them: to end at a single one costs no more, and is exact.
 const CROSSED: usize = 2;
+/// Where steps that cross corners shrink to one that does not, so many corners more are ended at before the next attempt, each
+/// time twice as many.
+const MOST_HELD: usize = 64;
 /// The longest step in periods of the fastest driving function at the tolerance [`COARSE`]: a longer one might miss it.
 const OF_PERIOD: f64 = 0.25;
 /// Part of a step whose balances have no solution that is tried next.
@@ -96,6 +99,11 @@ struct Corners {
     /// The next one, and the one before.
     next: usize,
     before: f64,
+    /// The first one that may be crossed, and how many more must not be where an attempt fails.
+    free: usize,
+    hold: usize,
+    /// Whether the step at hand crosses some.
+    is_crossing: bool,
 }
 
 impl Corners {
@@ -104,7 +112,7 @@ impl Corners {
         let first = walk.corners.partition_point(|&time| time <= start);
         let inside = walk.corners[first..].iter().take_while(|&&time| time < end);
         let times = inside.map(|time| time - start).chain([end - start]).collect();
-        Self { times, next: 0, before: 0.0 }
+        Self { times, next: 0, before: 0.0, free: 0, hold: 1, is_crossing: false }
     }
 
     /// The step that is wanted behind one of this length and error that has been cut from what was wanted: where corners may be
@@ -123,11 +131,26 @@ impl Corners {
             self.next += 1;
         }
         let crossed = self.times.get(self.next + CROSSED - 1);
-        if crossed.is_some_and(|&corner| corner < t + step) {
+        let is_crossing =
+            self.next >= self.free && crossed.is_some_and(|&corner| corner < t + step);
+        if self.is_crossing && !is_crossing {
+            self.free = self.next + self.hold;
+            self.hold = (2 * self.hold).min(MOST_HELD);
+        }
+        self.is_crossing = is_crossing;
+        if is_crossing {
             (f64::NEG_INFINITY, self.times[last])
         } else {
             (self.before, self.times[self.next])
         }
+    }
+
+    /// The step at hand is accepted.
+    fn go_on(&mut self) {
+        if self.is_crossing {
+            self.hold = 1;
+        }
+        self.is_crossing = false;
     }
 }
 
@@ -258,6 +281,7 @@ impl<'s> Integrator<'s> {
                 factor = control.stable(step, factor);
                 self.add_rows(walk, to);
                 walk.statistics.accepted += 1;
+                corners.go_on();
                 self.go_on();
                 walk.report(site(to).time)?;
                 t = to;
