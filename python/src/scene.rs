@@ -6,7 +6,7 @@ use std::{
 };
 
 use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, Tone, open, read_scene};
-use dashpot_network::{Assembly, parameters::Dimension};
+use dashpot_network::parameters::Dimension;
 use dashpot_scene::Tunables;
 use dashpot_units::si_unit;
 use pyo3::{prelude::*, types::PyList};
@@ -30,7 +30,6 @@ pub(crate) fn opened(py: Python<'_>, path: PathBuf) -> PyResult<(String, String)
 #[pyclass(frozen, module = "dashpot._dashpot")]
 pub(crate) struct Scene {
     read: dashpot_scene::Scene,
-    assembly: Arc<Assembly>,
     /// What is to be said about it.
     said: Vec<Said>,
     /// What was set in place of what it says.
@@ -50,8 +49,7 @@ impl Scene {
     ) -> PyResult<Self> {
         let read = py.detach(|| read_scene(text, file, &values));
         let (scene, said) = read.map_err(|said| failure(py, Kind::Input, &said))?;
-        let assembly = Arc::new(scene.assembly.clone());
-        Ok(Self { read: scene, assembly, said, set: values, tunables: OnceLock::new() })
+        Ok(Self { read: scene, said, set: values, tunables: OnceLock::new() })
     }
 
     /// Its title.
@@ -150,7 +148,7 @@ impl Scene {
         let options =
             RunOptions { accuracy, neglect, rtol, without_errors, budget, measures, sample, floor };
         let mut observer = OfRun::new(Asking::new(progress), self.read.run.duration);
-        let (scene, asked) = ((&self.read, &self.assembly), (&options, method));
+        let (scene, asked) = ((&self.read, &self.read.assembly), (&options, method));
         let solved = py.detach(|| SceneRun::of(scene, &self.set, asked, &mut observer));
         if let Some(error) = observer.raised {
             return Err(error);
@@ -159,7 +157,7 @@ impl Scene {
             // What is wrong with the scene is wrong input.
             failure(py, if status == 2 { Kind::Input } else { Kind::Run }, &said)
         })?;
-        Ok(Report::new(solved, Arc::clone(&self.assembly)))
+        Ok(Report::new(solved, Arc::clone(&self.read.assembly)))
     }
 }
 

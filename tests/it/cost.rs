@@ -1,6 +1,6 @@
 //! What accuracy costs: against solutions that are compared here, and as users of the command meet it.
 
-use std::{fs, sync::Arc};
+use std::fs;
 
 use dashpot::{
     analysis::{
@@ -29,18 +29,16 @@ fn cost(scene: &Scene, methods: &[&str], rtols: &[f64]) -> CostReport {
         repeats: Some(1),
         ..Ladder::default()
     };
-    let assembly = Arc::new(scene.assembly.clone());
-    work_precision_assembly(&assembly, &scene.settings("auto").unwrap(), &ladder, &mut Silent)
+    work_precision_assembly(&scene.assembly, &scene.settings("auto").unwrap(), &ladder, &mut Silent)
         .unwrap()
 }
 
 #[test]
 fn errors_of_the_reference_impact_fall_and_are_those_of_runs_beside_the_exact_one() {
     let scene = scene("reference");
-    let assembly = Arc::new(scene.assembly.clone());
     let solved = |method: &str, rtol| {
         let settings = SolveSettings { rtol, ..scene.settings(method).unwrap() };
-        solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap()
+        solve_assembly(&scene.assembly, &[], &settings, &mut Silent).unwrap()
     };
     let exact = solved("exact", None);
     let rtols = [1e-4, 1e-6, 1e-8, 1e-10];

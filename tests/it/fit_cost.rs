@@ -19,11 +19,12 @@ fn fitted(scene: &str, rows: &str, to: &str, varied: &[&str]) -> Value {
     json(&[&["fit", text(&scene), "--json", "--to", &to], varied].concat())
 }
 
-/// Within which of its bounds a number is found, in parts of the truth.
-fn assert_holds(fit: &Value, name: &str, truth: f64, by: f64) {
+/// Asserts that the interval of a number holds the truth, but for this part of it, and is no wider than so many truths.
+fn assert_holds(fit: &Value, name: &str, truth: f64, (by, widest): (f64, f64)) {
     let own = &fit["parameters"][name];
-    let [low, high] = ["low", "high"].map(|end| own[end].as_f64().unwrap() / truth);
-    assert!(low <= 1.0 + by && high >= 1.0 - by && high - low < 1.0, "{name}: {own}");
+    let [low, high] = [("low", 0.0), ("high", f64::INFINITY)]
+        .map(|(end, open)| own[end].as_f64().unwrap_or(open) / truth);
+    assert!(low <= 1.0 + by && high >= 1.0 - by && high - low <= widest, "{name}: {own}");
 }
 
 /// Modulus, plateau and densification of a foam \[Pa\], of exponent 2.
@@ -61,8 +62,8 @@ fn a_slow_test_with_its_times_takes_hardly_more_solutions_than_one_at_a_stated_r
     let stated = fitted(scene, &without, "stress=eps,rate=0.0056 1/s", &varied);
     for (name, truth) in NAMES.into_iter().zip(FOAM) {
         // Rows are rounded to 10 Pa.
-        assert_holds(&timed, name, truth, 1e-4);
-        assert_holds(&stated, name, truth, 1e-4);
+        assert_holds(&timed, name, truth, (1e-4, 1.0));
+        assert_holds(&stated, name, truth, (1e-4, 1.0));
     }
     let [timed, stated] = [&timed, &stated].map(evaluations);
     assert!(stated < 300 && timed < 5 * stated, "{timed} and {stated}");
@@ -148,8 +149,12 @@ fn a_ball_on_a_hollow_liner_is_fitted_in_few_runs_however_steep_the_foams_within
         "eps.exponent=1..5",
     ];
     let found = fitted(scene, &rows, "acc=head.acceleration", &varied);
-    for (name, truth) in NAMES.into_iter().zip(foam).take(2) {
-        assert_holds(&found, name, truth, 0.02);
+    // Pressed by two fifths, the foam leaves open how steep it is beyond: the best exponent lies on its bound, from which
+    // the others' intervals have to come away.
+    let widest = [1.0, 1.0, 2.0, f64::INFINITY];
+    let numbers = NAMES.into_iter().zip(foam).chain([("eps.exponent", exponent)]);
+    for ((name, truth), widest) in numbers.zip(widest) {
+        assert_holds(&found, name, truth, (0.02, widest));
     }
     let rms = found["tests"][0]["rms"].as_f64().unwrap() / peak;
     assert!((0.008..0.012).contains(&rms), "{rms}");

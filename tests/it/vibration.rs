@@ -167,7 +167,8 @@ fn dynamic_stiffness_is_that_of_poles_and_strengths() {
             .map(|word| format!("{}.{word}", network.node(head).name))
             .to_vec();
         let from = dice.decades(4.0);
-        let settings = SweepSettings { from: Some(from), to: Some(9.0 * from), points: 5, of };
+        let settings =
+            SweepSettings { from: Some(from), to: Some(9.0 * from), points: 5, of, at: None };
         let sweep = vibration.sweep(&settings).unwrap();
         for (at, frequency) in sweep.frequencies.iter().enumerate() {
             let omega = TAU * frequency;
@@ -208,7 +209,12 @@ fn a_pad_with_mass_passes_forces_on_as_it_passes_motions_on() {
     network.add_load("ram", device, Waveform::constant(1.0));
     let swings = |drive: &str| {
         let vibration = Vibration::new(&network, 1.0, Some(drive)).unwrap();
-        let settings = SweepSettings { from: Some(1.0), to: Some(2e3), points: 40, of: Vec::new() };
+        let settings = SweepSettings {
+            from: Some(1.0),
+            to: Some(2e3),
+            points: 40,
+            ..SweepSettings::default()
+        };
         vibration.sweep(&settings).unwrap().transmissions.remove(0).swings
     };
     for (force, motion) in swings("ram").into_iter().zip(swings("ground")) {
@@ -335,6 +341,17 @@ fn json_has_the_steady_state_in_si_units() {
     let by_acceleration = json(&[&at[..], &["0.5 g0"]].concat());
     assert!((floor(&by_acceleration) / (0.5 * 9.806_65) - 1.0).abs() < 1e-14);
     assert!((floor(&by_way) / (5e-4 * (TAU * 16.0).powi(2)) - 1.0).abs() < 1e-14);
+    // What is looked at is the ratio there.
+    let of = json(&[&at[..], &["0.5 mm", "--of", "isolator.force,case"]].concat());
+    let ratio = |at: usize| of["responses"][at]["at"]["amplitude"].as_f64().unwrap();
+    let peak = |all: &str, at: usize, what: &str| {
+        of["steady"][all][at][what]["amplitude"].as_f64().unwrap() / 5e-4
+    };
+    assert!((ratio(0) / peak("elements", 0, "force") - 1.0).abs() < 1e-12);
+    assert!((ratio(1) / peak("nodes", 1, "displacement") - 1.0).abs() < 1e-12);
+    let text = ["vibrate", text(&scene), "--at", "16 Hz", "--amplitude", "0.5 mm"];
+    let shown = out(&run(&[&text[..], &["--of", "isolator.force"]].concat()));
+    assert!(shown.contains("Responses at 16.00 Hz"), "{shown}");
 }
 
 #[test]

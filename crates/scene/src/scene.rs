@@ -67,7 +67,7 @@ pub struct Scene {
     /// Nodes, elements, loads and effects.
     pub network: Network,
     /// The network compiled for [`RunSettings::duration`].
-    pub assembly: Assembly,
+    pub assembly: Arc<Assembly>,
     /// How it is to be run.
     pub run: RunSettings,
     /// How accurate the measures are to be.
@@ -216,7 +216,9 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    let mut read = checked(options.bare, |faults| read_scene(text, options, faults))?;
+    let of = |size| checked(options.bare, |faults| read_scene(text, options, size, faults));
+    let large = (text.len() > LARGE).then(|| of(TextSize::Large)).and_then(Result::ok);
+    let mut read = large.map_or_else(|| of(TextSize::Usual), Ok)?;
     read.value.warnings.clone_from(&read.warnings.list);
     Ok(read)
 }
@@ -426,7 +428,24 @@ impl<'d> Parts<'d> {
     }
 }
 
-fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<Scene> {
+/// Texts longer than this \[B\] are large.
+const LARGE: usize = 4 << 20;
+
+/// What becomes of the entries of a text, which take some five times its memory, while its network is compiled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum TextSize {
+    /// They say where something is that the compiler finds.
+    Usual,
+    /// They are gone; there is no scene where anything is to be said or sought then.
+    Large,
+}
+
+fn read_scene(
+    text: &str,
+    options: &ReadOptions<'_>,
+    size: TextSize,
+    faults: &Faults,
+) -> Option<Scene> {
     let (library, source) = load(text, options, faults)?;
     let Parts { reading, network, title, measures, limits, accuracy, mut notes } =
         Parts::read(&library, faults);
@@ -434,7 +453,8 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     if faults.errors() == 0 {
         together::check(&source, faults);
     }
-    if faults.errors() > 0 {
+    let is_large = size == TextSize::Large;
+    if faults.errors() > 0 || is_large && (run.at_most.is_some() || !stops.is_empty()) {
         return None;
     }
     let compiled = |duration: f64| {
@@ -449,7 +469,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         run.duration = find_duration(&reading, &network, &run, at_most)?;
     }
     // What is odd about a scene is of no interest while it has no answer.
-    let assembly = compiled(run.duration)?;
+    let early = if is_large { None } else { Some(compiled(run.duration)?) };
     review(&reading, &network, run.duration);
     outlasted(&reading, &notes, run.duration);
     notes.extend(weightless(&network));
@@ -464,16 +484,25 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
     let mut values: Vec<NamedValue> = values.collect();
     values.sort_by(|a, b| a.name.cmp(&b.name));
     let scatter = ScatteredNumber::all(&source.text, options.file).unwrap_or_default();
-    note_held(&reading, &assembly.held);
-    note_warnings(&reading, &assembly.warnings);
-    if run.at_most.is_none() {
-        run.stops = check_stops(&reading, &stops, &assembly);
-    }
+    let files = library.paths();
+    let assembly = if let Some(assembly) = early {
+        note_held(&reading, &assembly.held);
+        note_warnings(&reading, &assembly.warnings);
+        if run.at_most.is_none() {
+            run.stops = check_stops(&reading, &stops, &assembly);
+        }
+        assembly
+    } else {
+        drop(reading);
+        drop(library);
+        let assembly = network.compile(run.duration).ok()?;
+        (assembly.warnings.is_empty() && assembly.held.is_empty()).then_some(assembly)?
+    };
     let mut scene = Scene {
         title,
         file: options.file.map(str::to_owned),
         network,
-        assembly,
+        assembly: Arc::new(assembly),
         run,
         accuracy,
         measures,
@@ -483,7 +512,7 @@ fn read_scene(text: &str, options: &ReadOptions<'_>, faults: &Faults) -> Option<
         scatter,
         values,
         text: Arc::clone(&source.text),
-        files: library.paths(),
+        files,
     };
     scene.add_limits(limits);
     Some(scene)

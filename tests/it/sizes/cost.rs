@@ -1,6 +1,6 @@
 //! What a chain costs from its text to its report.
 
-use std::{fmt::Write as _, fs, process::Command, sync::Arc};
+use std::{fmt::Write as _, fs, process::Command};
 
 use allocation_counter::measure;
 use dashpot::{
@@ -77,19 +77,12 @@ fn one() {
     let masses = count as f64;
     let text = text(count);
     let begin = spent();
-    let mut scene0 = None;
-    let m = measure(|| scene0 = Some(read(&text, &ReadOptions::default()).unwrap().value));
-    let scene = scene0.unwrap();
-    eprintln!(
-        "LIVE read: max {} now {}",
-        m.bytes_max as f64 / 1e3 / masses,
-        m.bytes_current as f64 / 1e3 / masses
-    );
+    let scene = read(&text, &ReadOptions::default()).unwrap().value;
     let parsed = spent() - begin;
     let peak_of_text = memory("VmHWM:") / masses;
     drop(text);
     let settings: SolveSettings = scene.settings("bdf").unwrap();
-    let assembly = Arc::new(scene.assembly);
+    let assembly = scene.assembly;
     drop(scene.network);
     let begin = spent();
     let mut report = None;
@@ -127,7 +120,7 @@ fn equal() {
     let begin = spent();
     let scene = read(&text, &ReadOptions::default()).unwrap().value;
     let settings = SolveSettings { rtol: Some(rtol), ..scene.settings("bdf").unwrap() };
-    let assembly = Arc::new(scene.assembly);
+    let assembly = scene.assembly;
     let report = solve_assembly(&assembly, &[], &settings, &mut Silent).unwrap();
     let whole = spent() - begin;
     let steps = report.solver.statistics.accepted;

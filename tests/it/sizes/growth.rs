@@ -149,3 +149,38 @@ fn long_runs_that_switch_keep_little_of_each_leg() {
     let each = (long - short) / (many - few);
     assert!(each <= 9e3, "{each} bytes for each of {many} switchings");
 }
+
+#[test]
+fn large_texts_are_told_what_small_ones_are() {
+    let scene = |head: &str, between: &str, run: &str| {
+        format!(
+            "[nodes]\nhead = {{ {head} }}\n[elements]\npad = {{ between = {between}, kelvin = \
+             {{ spring = \"60 kN/m\", dashpot = \"300 N s/m\" }} }}\n[run]\n{run}\n"
+        )
+    };
+    let (massive, towards) = ("mass = \"5 kg\", velocity = \"4 m/s\"", "[\"head\", \"ground\"]");
+    let scenes = [
+        // What the compiler warns of, and refuses.
+        scene(massive, "[\"ground\", \"head\"]", "duration = \"20 ms\""),
+        scene("mass = 0, velocity = \"4 m/s\"", towards, "duration = \"20 ms\""),
+        // What is sought in what it makes.
+        scene(
+            massive,
+            towards,
+            "duration = \"20 ms\"\nstop = [{ when = \"pad.force\", falls-below = \"2 kN\" }]",
+        ),
+        scene(massive, towards, "duration = \"auto\""),
+        scene(massive, towards, "duration = \"20 ms\""),
+    ];
+    let comments = format!("# {}\n", "-".repeat(98)).repeat(50_000);
+    for (at, small) in scenes.iter().enumerate() {
+        let told = |text: &str| {
+            let read = read(text, &ReadOptions::default());
+            let run = read.as_ref().map_or(String::new(), |own| format!("{:?}", own.value.run));
+            (read.map_or_else(|own| own, |own| own.warnings).render(false), run)
+        };
+        let (own, large) = (told(small), told(&format!("{small}{comments}")));
+        assert_eq!(own, large);
+        assert!(at > 1 || !own.0.is_empty(), "{small}");
+    }
+}

@@ -4,6 +4,7 @@ use std::{f64::consts::TAU, fmt};
 
 use dashpot_dae::frequency::MOST_UNKNOWNS;
 use dashpot_network::{Assembly, Network, NetworkErrors, elements::Law, first_nonlinear};
+use dashpot_units::nearest;
 use serde::{Serializer, ser::SerializeMap};
 use thiserror::Error;
 
@@ -65,7 +66,7 @@ pub enum VibrationError {
         known: Vec<String>,
     },
     /// There is no such load, and no such node that is moved or fixed.
-    #[error("`{name}` is no load, and no node that is moved or fixed; {}", there_is(.known))]
+    #[error("`{name}` is no load, and no node that is moved or fixed; {}", there_is(.name, .known))]
     UnknownDrive {
         /// What was asked for.
         name: String,
@@ -81,11 +82,11 @@ pub enum VibrationError {
         node: String,
     },
     /// There is no such node to be looked at.
-    #[error("`{name}` is no {sought}; {}", there_is(.known))]
+    #[error("`{name}` is no {sought}; {}", there_is(.name, .known))]
     UnknownNode {
         /// What was asked for.
         name: String,
-        /// `node that can move`, or `support`.
+        /// `node that can move`, `support`, or `quantity`.
         sought: &'static str,
         /// What there is.
         known: Vec<String>,
@@ -114,12 +115,14 @@ pub enum VibrationError {
     },
 }
 
-/// What there is, in words.
-fn there_is(known: &[String]) -> String {
+/// What there is in place of `name`, in words.
+fn there_is(name: &str, known: &[String]) -> String {
+    let near = nearest(name, known.iter().map(String::as_str));
+    let meant = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
     match known {
         [] => "there is none".to_owned(),
         [only] => format!("there is only `{only}`"),
-        several => format!("there are {}", several.join(", ")),
+        several => format!("{meant}there are {}", several.join(", ")),
     }
 }
 

@@ -137,13 +137,28 @@ impl Vibration {
             let response = (quantity.all)(self).into_iter().find(|own| own.name == owner)?;
             Some(Receiver { name: name.to_owned(), quantity, response })
         };
-        let unknown = || VibrationError::UnknownNode {
-            name: owner.to_owned(),
-            sought: quantity.of,
-            known: (quantity.all)(self).into_iter().map(|own| own.name).collect(),
-        };
         // There may be a dot in the name of a node.
-        find(alone).or_else(|| find((owner, quantity))).ok_or_else(unknown)
+        let found = find(alone).or_else(|| find((owner, quantity)));
+        found.ok_or_else(|| self.unknown(owner, quantity))
+    }
+
+    /// Why there is no such `quantity` of `owner`: what has one, or which ones there are of what stands before a word that
+    /// is none.
+    fn unknown(&self, owner: &str, quantity: &Quantity) -> VibrationError {
+        let named = |all: fn(&Self) -> Vec<Response>| all(self).into_iter().map(|own| own.name);
+        let of = |part: &str| -> Vec<String> {
+            let has = |own: &&Quantity| named(own.all).any(|name| name == part);
+            QUANTITIES.iter().filter(has).map(|own| format!("{part}.{}", own.word)).collect()
+        };
+        let before = owner.rsplit_once('.').map(|own| of(own.0)).unwrap_or_default();
+        let (sought, known) =
+            match (quantity.word == self.drive.kind.usual().word, before.is_empty()) {
+                (true, false) => ("quantity", before),
+                (true, true) => (quantity.of, of(owner)),
+                _ => (quantity.of, Vec::new()),
+            };
+        let known = if known.is_empty() { named(quantity.all).collect() } else { known };
+        VibrationError::UnknownNode { name: owner.to_owned(), sought, known }
     }
 
     fn displacements(&self) -> Vec<Response> {

@@ -36,11 +36,13 @@ pub struct SweepSettings {
     /// What is looked at: nodes, or supports and elements where a load drives, or a [quantity](super::QUANTITIES) of
     /// something, as `padding.force`; empty for every mass, or every support.
     pub of: Vec<String>,
+    /// A frequency at which each response is told besides \[Hz\], positive.
+    pub at: Option<f64>,
 }
 
 impl Default for SweepSettings {
     fn default() -> Self {
-        Self { from: None, to: None, points: 200, of: Vec::new() }
+        Self { from: None, to: None, points: 200, of: Vec::new(), at: None }
     }
 }
 
@@ -79,6 +81,8 @@ pub struct Transmission {
     /// The peaks within the range, by rising frequency. They are those of the response itself, not
     /// of its values at the frequencies of the list.
     pub resonances: Vec<Resonance>,
+    /// The ratio at the [frequency that is asked for](SweepSettings::at); `None` where it cannot be told.
+    pub at: Option<Swing>,
     /// The limit at slow oscillation; `None` where there is none.
     pub at_rest: Option<Swing>,
 }
@@ -128,18 +132,19 @@ impl Vibration {
         let slowest = poles.iter().map(|pole| pole.0.hypot(pole.1)).fold(TAU * range[0], f64::min);
         let transmission = |receiver: &Receiver| {
             let [low, high] = [TAU * range[0] / BEYOND, TAU * range[1] * BEYOND];
-            let curve = Curve::new(self, &receiver.response, &poles, [low, high]);
+            let [first, last] =
+                settings.at.map_or([low, high], |at| [low.min(TAU * at), high.max(TAU * at)]);
+            let curve = Curve::new(self, &receiver.response, &poles, [first, last]);
+            let swing = |frequency: &f64| curve.swing(TAU * frequency).filter(Swing::is_known);
             let extrema = curve.extrema(low, high, &poles);
             Transmission {
                 name: receiver.name.clone(),
                 quantity: receiver.quantity.word,
                 unit: receiver.quantity.unit(self.drive.kind),
                 has_phase: receiver.response.form != Form::Power,
-                swings: frequencies
-                    .iter()
-                    .map(|frequency| curve.swing(TAU * frequency).filter(Swing::is_known))
-                    .collect(),
+                swings: frequencies.iter().map(swing).collect(),
                 resonances: resonances(&curve, &extrema, range),
+                at: settings.at.as_ref().and_then(swing),
                 at_rest: curve.at_rest(slowest),
             }
         };

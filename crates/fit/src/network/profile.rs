@@ -14,6 +14,8 @@ const LONGEST: f64 = 1.0;
 const NEAR: f64 = 0.02;
 /// A refit has converged where a step lowers the sum by less than this part of the rise to an end.
 const ENOUGH: f64 = 1e-3;
+/// Refits begin by so many rooms between bounds inside of them: the optimiser hardly leaves one that it begins on.
+const INSIDE: f64 = 0.01;
 /// Refits on the way to an end.
 const MOST: usize = 14;
 /// A step grows by no more than this.
@@ -133,7 +135,9 @@ impl<'v, 't> Valley<'v, 't> {
             let start = self.best.unknowns.iter().zip(&slopes).enumerate().map(|(at, own)| {
                 let moved = own.0 + own.1 * (value - from);
                 let moved = if moved.is_finite() { moved } else { *own.0 };
-                moved.clamp(self.bounds[0][at], self.bounds[1][at])
+                let [low, high] = [0, 1].map(|side: usize| self.bounds[side][at]);
+                let inside = INSIDE * (high - low);
+                moved.clamp(low + inside, high - inside)
             });
             let rise = match self.held(at, value, &start.collect::<Vec<f64>>()) {
                 Some((rise, unknowns)) => {

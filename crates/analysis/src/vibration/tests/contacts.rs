@@ -59,7 +59,8 @@ fn top() -> f64 {
 }
 
 fn swept(vibration: &Vibration) -> Sweep {
-    let settings = SweepSettings { from: Some(2.0), to: Some(300.0), points: 7, of: Vec::new() };
+    let settings =
+        SweepSettings { from: Some(2.0), to: Some(300.0), points: 7, ..SweepSettings::default() };
     vibration.sweep(&settings).unwrap()
 }
 

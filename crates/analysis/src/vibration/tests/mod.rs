@@ -47,7 +47,7 @@ fn shaken(network: &Network) -> Vibration {
 }
 
 fn range(from: f64, to: f64, points: usize) -> SweepSettings {
-    SweepSettings { from: Some(from), to: Some(to), points, of: Vec::new() }
+    SweepSettings { from: Some(from), to: Some(to), points, ..SweepSettings::default() }
 }
 
 /// The ratio of the only receiver at `omega` \[rad/s\], with its error.

@@ -71,7 +71,7 @@ const UNITS: [(f64, f64); 6] =
     [(0.5, 200.0), (0.3, 70.1), (3e-7, 2e9), (7e5, 1.3e-4), (4.448e3, 1.751e2), (1e-12, 1e-12)];
 
 fn settings(from: f64, to: f64, points: usize) -> SweepSettings {
-    SweepSettings { from: Some(from / TAU), to: Some(to / TAU), points, of: Vec::new() }
+    SweepSettings { from: Some(from / TAU), to: Some(to / TAU), points, ..SweepSettings::default() }
 }
 
 #[test]

@@ -205,6 +205,26 @@ fn antiresonance_without_damping_is_a_stiffness_without_limit() {
 }
 
 #[test]
+fn responses_at_one_frequency_follow_their_closed_forms_within_and_beyond_the_range() {
+    let network = seated(0.0);
+    let vibration = Vibration::new(&network, 1.0, Some("seat")).unwrap();
+    for at in [0.01, 16.0, 3e4] {
+        let of = ["body", "mount.force", "mount.power"].map(str::to_owned).to_vec();
+        let settings = SweepSettings { of, at: Some(at), ..range(1.0, 200.0, 4) };
+        let sweep = vibration.sweep(&settings).unwrap();
+        let s = C::new(0.0, TAU * at);
+        let moved = stiffness(s) / (stiffness(s) + s * s * MASS);
+        let power = 0.5 * (stiffness(s) - STIFFNESS).im * s.im * (moved - 1.0).norm_sqr();
+        let exact = [moved, moved * s * s * MASS, power.into()];
+        for (own, exact) in sweep.transmissions.iter().zip(exact) {
+            let own = own.at.unwrap();
+            let off = (own.amplitude - exact.norm()).abs();
+            assert!(off <= own.error + 1e-13 * exact.norm(), "{at} Hz: {own:?} of {exact}");
+        }
+    }
+}
+
+#[test]
 fn quantity_that_is_not_there_is_refused_with_those_that_are() {
     let network = seated(0.0);
     let refused = |drive, name: &str| {
@@ -219,7 +239,17 @@ fn quantity_that_is_not_there_is_refused_with_those_that_are() {
         refused("ram", "seat.impedance"),
         "`seat` is no node that the drive moves; there is only `body`"
     );
-    assert_eq!(refused("seat", "mount"), "`mount` is no node that can move; there is only `body`");
+    // Which quantities there are of what is named.
+    let there_are = "there are mount.force, mount.deformation, mount.power";
+    assert_eq!(refused("seat", "mount"), format!("`mount` is no node that can move; {there_are}"));
+    assert_eq!(
+        refused("seat", "mount.froce"),
+        format!("`mount.froce` is no quantity; did you mean `mount.force`? {there_are}")
+    );
+    assert_eq!(
+        refused("seat", "mont.force"),
+        "`mont` is no support or element; did you mean `mount`? there are seat, mount"
+    );
     let vibration = Vibration::new(&mount(spring(1.0)), 1.0, Some("ground")).unwrap();
     let text = vibration.quantities(&["mount.power".to_owned()]).unwrap_err().to_string();
     assert_eq!(text, "`mount` is no element with a dashpot; there is none");

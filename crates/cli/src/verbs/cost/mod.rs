@@ -3,7 +3,7 @@
 mod files;
 mod tables;
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, path::PathBuf};
 
 use clap::Args;
 use dashpot_analysis::{
@@ -75,12 +75,11 @@ struct Costs {
 pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scene = arguments.scene.read(terminal)?;
     let folder = Folder::wanted(arguments.out.as_deref(), files::names())?;
-    let assembly = Arc::new(scene.assembly.clone());
     let mut settings = scene.settings("auto")?;
     settings.budget = arguments.budget.unwrap_or(settings.budget);
     let mut bar = Bar::new("cost", settings.duration, terminal.error.attended);
     let report =
-        work_precision_assembly(&assembly, &settings, &ladder(&scene, arguments)?, &mut bar)?;
+        work_precision_assembly(&scene.assembly, &settings, &ladder(&scene, arguments)?, &mut bar)?;
     drop(bar);
     let accuracies = accuracies(scene.accuracy.default);
     let costs = Costs { scene, report, accuracies };

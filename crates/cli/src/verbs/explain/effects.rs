@@ -1,7 +1,5 @@
 //! The effects of a scene, on and off: how much each matters, and what it costs.
 
-use std::sync::Arc;
-
 use dashpot_analysis::{
     RunError,
     contribution::{Contribution, Contributor, EffectState, SystemSize, contributions},
@@ -28,8 +26,7 @@ const LABELS: usize = 20;
 /// What each effect of a scene contributes.
 pub(super) fn contributed(scene: &Scene) -> Result<Vec<Contribution>, RunError> {
     let settings = scene.settings(scene.run.methods.first().map_or("auto", String::as_str))?;
-    let assembly = Arc::new(scene.assembly.clone());
-    Ok(contributions(&scene.network, &assembly, &settings, MOST, &mut Silent))
+    Ok(contributions(&scene.network, &scene.assembly, &settings, MOST, &mut Silent))
 }
 
 /// The effects as a table; with what each adds and how it is written where it `is_verbose`.

@@ -143,6 +143,11 @@ impl<'p> Plan<'p> {
         let known = own.into_iter().map(|own| list(own.into_iter().map(|own| own.0)));
         let known = list(known);
         print_notes(&scene.notes);
+        if scene.accuracy.neglect_below.is_some() {
+            note(
+                "fits leave nothing out: `neglect-below` of the scene does not apply to their runs",
+            );
+        }
         let evaluated = Evaluated::default();
         Ok(Self {
             arguments,
@@ -285,8 +290,11 @@ fn searched(
             |why: &String| evaluated.misses.note(values.to_vec(), Cause::scene(why.clone()));
         solvers[test].curve(values).inspect_err(missed)
     };
-    let watch = |own: Search| progress.show(own, evaluated.count.load(Ordering::Relaxed));
     loop {
+        // A further search counts its own runs.
+        let before = evaluated.count.load(Ordering::Relaxed);
+        let watch =
+            |own: Search| progress.show(own, evaluated.count.load(Ordering::Relaxed) - before);
         let found = fit_watched(begun, tests, settings, &model, &watch)?;
         let is_alike = |(at, own): (usize, &Solver<'_>)| {
             let values = found.numbers.iter().map(|own| own.value);

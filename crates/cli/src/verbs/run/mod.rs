@@ -22,7 +22,7 @@ pub(super) mod series;
 mod solving;
 mod verdict;
 
-use std::{collections::HashMap, path::PathBuf, sync::Arc};
+use std::{collections::HashMap, path::PathBuf};
 
 use clap::Args;
 use dashpot_analysis::{
@@ -376,7 +376,6 @@ fn solve_all(
             asked.push(options.settings(&scene, method)?);
         }
     }
-    let assembly = Arc::new(scene.assembly.clone());
     let scattered = Scattered::of(&scene, set, &options)?;
     let measured = arguments.measured.read(&scene)?;
     let (mut runs, mut failed, mut beside) = (Vec::<RunReport>::new(), Vec::new(), Vec::new());
@@ -386,7 +385,7 @@ fn solve_all(
         let budget = (own.budget >> long.min(9)).max(1);
         let mut bar = Bar::new(own.method.name(), own.duration, terminal.error.attended);
         let granted = SolveSettings { budget, ..own.clone() };
-        let solved = solve_partial(&scene.network, &assembly, &granted, &mut bar);
+        let solved = solve_partial(&scene.network, &scene.assembly, &granted, &mut bar);
         long += u32::from(match &solved {
             Ok(report) => report.solver.work > budget / 2,
             Err(error) => matches!(error, RunError::Solve(SolveError::BudgetSpent { .. })),

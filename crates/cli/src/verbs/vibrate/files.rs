@@ -8,7 +8,7 @@ use dashpot_plot::{Report, ReportFigure, Table, VibrationCurve, VibrationSeries}
 use super::{
     DIGITS, Shaken,
     tables::{
-        degrees, drive, modes, quantities, range_notes, resonances, response, steady, steady_notes,
+        degrees, drive, modes, quantities, range_notes, resonances, response, steady_notes,
         title as title_of,
     },
 };
@@ -80,7 +80,7 @@ fn page(shaken: &Shaken, figures: &[(String, ReportFigure)]) -> Report {
     let notes = of_steady.clone().flat_map(steady_notes);
     let notes = notes.chain(range_notes(sweep));
     let notes = notes.chain(sweep.notes.iter().map(VibrationWarning::to_string));
-    let tables = of_steady.flat_map(steady).chain([modes(sweep), resonances(sweep)]);
+    let tables = shaken.steady_tables().into_iter().chain([modes(sweep), resonances(sweep)]);
     Report {
         title: title(scene).to_owned(),
         warnings: list(warnings),

@@ -11,13 +11,14 @@ use dashpot_analysis::vibration::{
     VibrationWarning,
 };
 use dashpot_network::parameters::Dimension;
+use dashpot_plot::Table;
 use dashpot_scene::{
     Scene,
     units::{Quantity, parse_quantity},
 };
 use serde::Serialize;
 
-use self::tables::{drive, modes, range_notes, resonances, response, steady, steady_notes};
+use self::tables::{drive, modes, range_notes, ratios, resonances, response, steady, steady_notes};
 use crate::{
     args::{SceneArguments, When, positive},
     error::{CliError, Status},
@@ -64,7 +65,7 @@ pub(crate) struct VibrateArguments {
     /// dynamic-stiffness, impedance and apparent-mass of the driven node.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     of: Vec<String>,
-    /// Peaks of the steady state at this frequency, in place of the table over frequency.
+    /// Peaks of the steady state at this frequency, and what `--of` names, in place of the table over frequency.
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true, value_parser = frequency, requires = "amplitude")]
     at: Option<f64>,
     /// Amplitude of the drive there: of a force, or of a displacement or an acceleration.
@@ -90,7 +91,18 @@ struct Shaken {
     scene: Scene,
     sweep: Sweep,
     steady: Option<Steady>,
+    /// Whether it is said what is looked at.
+    is_chosen: bool,
     plot: When,
+}
+
+impl Shaken {
+    /// The tables of the steady state, where one is asked for.
+    fn steady_tables(&self) -> Vec<Table> {
+        let Some(own) = &self.steady else { return Vec::new() };
+        let asked = self.is_chosen.then(|| ratios(&self.sweep, own.frequency));
+        steady(own).into_iter().chain(asked).collect()
+    }
 }
 
 pub(crate) fn vibrate(
@@ -105,6 +117,7 @@ pub(crate) fn vibrate(
         to: arguments.to,
         points: arguments.points,
         of: arguments.of.iter().map(|own| own.trim().to_owned()).collect(),
+        at: arguments.at,
     };
     let quantities = vibration.quantities(&settings.of)?;
     let names = files::names(&quantities, vibration.drive().kind);
@@ -120,7 +133,8 @@ pub(crate) fn vibrate(
     for warning in steady.iter().flat_map(|own| &own.warnings) {
         terminal.warn(&warning.to_string());
     }
-    let found = Shaken { scene, sweep, steady, plot: arguments.plot };
+    let is_chosen = !arguments.of.is_empty();
+    let found = Shaken { scene, sweep, steady, is_chosen, plot: arguments.plot };
     emit(&found, arguments.json, folder, terminal)?;
     Ok(Status::Done)
 }
@@ -149,10 +163,8 @@ impl Study for Shaken {
         let Self { sweep, .. } = self;
         text.title(title(&self.scene));
         text.faint(&drive(sweep));
-        if let Some(own) = &self.steady {
-            steady(own).iter().for_each(|own| text.table(own));
-            text.paragraphs(steady_notes(own));
-        }
+        self.steady_tables().iter().for_each(|own| text.table(own));
+        text.paragraphs(self.steady.iter().flat_map(steady_notes));
         text.table(&modes(sweep));
         text.table(&resonances(sweep));
         let notes = sweep.notes.iter().map(VibrationWarning::to_string);
@@ -210,6 +222,7 @@ fn response_object(transmission: &Transmission) -> impl Serialize {
         phase: transmission.has_phase.then(|| all(|own| own.phase)),
         error: all(|own| own.error),
         resonances: list(transmission.resonances.iter().map(peak)),
+        at: transmission.at,
         at_rest: transmission.at_rest,
     }
 }

@@ -250,6 +250,16 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
     vec![nodes, elements, supports]
 }
 
+/// The ratios of what is looked at, at the frequency of the steady state.
+pub(super) fn ratios(sweep: &Sweep, frequency: f64) -> Table {
+    let rows = sweep.transmissions.iter().map(|own| {
+        let text = |text: &dyn Fn(Swing) -> String| own.at.map_or(NONE.to_owned(), text);
+        let phase = if own.has_phase { text(&|swing| angle(swing.phase)) } else { NONE.to_owned() };
+        vec![own.name.clone(), text(&|swing| quantity(swing.amplitude, own.unit, DIGITS)), phase]
+    });
+    Table::new(format!("Responses at {}", hertz(frequency)), &["", "ratio", "phase °"], rows)
+}
+
 /// What is to be known beside them.
 pub(super) fn steady_notes(steady: &Steady) -> Vec<String> {
     let power = steady.power.map(|power| {
