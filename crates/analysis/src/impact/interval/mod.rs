@@ -23,7 +23,8 @@ pub enum Contact {
     NoImpactor,
 }
 
-/// The time from first contact to the first zero of the contact force.
+/// The time from first contact to the first zero of the contact force after it has been more than slight: the part 0.01 of the
+/// most that it pushes with in the run.
 ///
 /// Masses that meet and part at once have an impact of no length. A force that is zero at the start and then pushes (a Maxwell element's) has its first zero
 /// later; a force that decays towards zero from above has none. A touch that stays below a thousandth
@@ -337,8 +338,9 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     let mut open: Option<(f64, f64)> = None;
     for panel in &force.panels {
         if !rests(panel) {
+            let size: f64 = panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum();
             let (start, most) = open.unwrap_or((panel.start, 0.0));
-            open = Some((start, most.max(size(panel))));
+            open = Some((start, most.max(size)));
         } else if panel.length() > 0.0
             && let Some((start, most)) = open.take()
             && most > floor
@@ -362,18 +364,9 @@ pub(crate) fn first_felt<'b>(
     jumps.iter().find(|jump| jump.impulse.abs() > SMALLEST_JUMP * size)
 }
 
-/// When a force that is zero at first, or for long nothing but rounding, begins to act \[s\]. For less than the part
-/// [`SLIGHT`] of the run one that grows from the start on as a power of time may be below rounding as well.
+/// When a force that is zero at first begins to act \[s\].
 fn first_load(force: &Signal) -> Option<f64> {
-    let start = pushes(force).first()?.start;
-    let quiet = force.panels.iter().take_while(|panel| size(panel) <= force.noise).last();
-    let rest = quiet.map(|last| last.end).filter(|end| *end > SLIGHT * force.end());
-    Some(rest.map_or(start, |end| start.max(end)))
-}
-
-/// A bound of the magnitude of the force over a panel.
-fn size(panel: &Panel) -> f64 {
-    panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum()
+    pushes(force).first().map(|push| push.start)
 }
 
 /// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.

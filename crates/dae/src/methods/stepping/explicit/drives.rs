@@ -57,14 +57,14 @@ impl<'s> Drives<'s> {
         self.sources.iter().zip(values).for_each(|(own, value)| *value = own.at(t));
     }
 
-    /// The excursion of each input in the equations that has corners between two times from the polynomial of this degree
-    /// through its values there; it is looked for at the corners and half-way between.
+    /// The excursions to both sides of each input in the equations that has corners between two times from the polynomial of
+    /// this degree through its values there; they are looked for at the corners and half-way between.
     pub(super) fn excursions(
         &self,
         (start, end): (f64, f64),
         degree: usize,
     ) -> impl Iterator<Item = Excursion> + '_ {
-        self.cornered.iter().filter_map(move |&input| {
+        let of_input = move |&input: &usize| {
             let source = &self.sources[input];
             let (first, last) = source.waveform.range(start, end);
             if first == last {
@@ -82,15 +82,19 @@ impl<'s> Drives<'s> {
                 before = corner;
                 [middle, corner]
             });
-            let mut most = (0.0, Excursion { input, time: start, smooth: source.at(start) });
+            let none = (0.0, Excursion { input, time: start, smooth: source.at(start) });
+            let mut most = [none; 2];
             for time in places {
                 let smooth = evaluate(&coefficients, 2.0 * (time - start) / (end - start) - 1.0);
-                let distance = (source.at(time) - smooth).abs();
-                if distance > most.0 {
-                    most = (distance, Excursion { input, time, smooth });
+                let distance = source.at(time) - smooth;
+                for (most, distance) in most.iter_mut().zip([distance, -distance]) {
+                    if distance > most.0 {
+                        *most = (distance, Excursion { input, time, smooth });
+                    }
                 }
             }
-            Some(most.1)
-        })
+            Some(most.map(|own| own.1))
+        };
+        self.cornered.iter().filter_map(of_input).flatten()
     }
 }

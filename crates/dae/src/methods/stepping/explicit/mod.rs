@@ -421,8 +421,9 @@ impl<'s> Integrator<'s> {
     }
 
     /// What the stages of a step miss of the driving functions' corners within it, in parts of the tolerance: by how much
-    /// balanced unknowns and, over the step, the slopes are others where a function is farthest from a polynomial as smooth as
-    /// the dense output. What comes and goes between stages would not show otherwise.
+    /// balanced unknowns and slopes are others where a function is farthest from a polynomial as smooth as the dense
+    /// output. What comes and goes between stages would not show otherwise. Slopes are compared with the largest ones of the
+    /// step as well: where all moves far together, little beside the unknowns is much beside what acts.
     fn error_of_corners(
         &mut self,
         (t, step): (f64, f64),
@@ -432,18 +433,24 @@ impl<'s> Integrator<'s> {
         let mut error = 0.0_f64;
         for excursion in self.reduced.excursions((t, to), DEGREE) {
             self.look((excursion.time - t) / step);
-            let [own, other] = &mut self.slopes[LAST + 1..=LAST + 2] else { return Ok(error) };
+            let (stages, free) = self.slopes.split_at_mut(LAST + 1);
+            let [own, other, ..] = free else { return Ok(error) };
             self.reduced.slopes(excursion.time, &mut self.stage, own)?;
             let mut without = self.stage.clone();
             self.reduced.slopes_without(&excursion, &mut without, other)?;
             let unit = |unknown: usize| {
                 atol[unknown] + rtol * self.before[unknown].abs().max(self.after[unknown].abs())
             };
-            let slopes = self.reduced.differential().iter().zip(own.iter().zip(other));
-            let slopes = slopes.map(|(&at, (own, other))| step * (*own - *other).abs() / unit(at));
+            for (at, &unknown) in self.reduced.differential().iter().enumerate() {
+                let change = (own[at] - other[at]).abs();
+                if change > 0.0 {
+                    let most = stages.iter().map(|slopes| slopes[at].abs()).fold(0.0, f64::max);
+                    error = error.max(change / (rtol * most).min(unit(unknown) / step));
+                }
+            }
             let balanced = self.reduced.algebraic().iter();
             let balanced = balanced.map(|&at| (self.stage[at] - without[at]).abs() / unit(at));
-            error = slopes.chain(balanced).fold(error, f64::max);
+            error = balanced.fold(error, f64::max);
         }
         Ok(error)
     }
