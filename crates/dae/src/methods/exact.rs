@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use super::check;
 use crate::{
-    Event, Guard, Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics,
-    System, Trajectory, Waveform,
+    Event, Guard, Method, MethodKind, Observer, Outcome, Progress, Run, Shared, SolveError,
+    Statistics, System, Trajectory, Waveform,
     events::{Stop, scan},
     exact::{Augmented, Solution},
 };
@@ -236,8 +236,32 @@ impl Method for Exact {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Trajectory, SolveError> {
+        Self::follow(system, run, None, observer)
+    }
+
+    fn integrate_interval(
+        &self,
+        system: &System,
+        run: &Run,
+        shared: &mut Shared,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        Self::follow(system, run, Some(shared), observer)
+    }
+}
+
+impl Exact {
+    fn follow(
+        system: &System,
+        run: &Run,
+        shared: Option<&mut Shared>,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
         let begin = Instant::now();
         let mut solution = Self::solve(system, run)?;
+        if let Some(shared) = &shared {
+            solution = solution.alike(shared);
+        }
         if let Some(lost) = solution.lost() {
             let unknown = system.unknowns.get(lost).map_or(String::new(), |u| u.name.clone());
             return Err(SolveError::NotFinite { method: Self::KIND, time: run.t_end, unknown });
@@ -286,6 +310,9 @@ impl Method for Exact {
             return Err(SolveError::Cancelled { time: t_end });
         }
         let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
+        if let Some(shared) = shared {
+            solution.share(shared);
+        }
         // What was made on the way to the end.
         solution.clear();
         Ok(Trajectory {
