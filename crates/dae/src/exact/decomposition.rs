@@ -1,6 +1,9 @@
 //! The modal decomposition of an augmented system.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use nalgebra::DMatrix;
 
@@ -109,28 +112,51 @@ impl Form {
 /// What solutions that were met before are made of, so that those which follow need not find and keep it again:
 /// a run that switches goes through the same few sets of equations.
 #[derive(Debug, Default)]
-pub struct Shared(Vec<(Arc<Equations>, Arc<Form>)>);
+pub struct Shared {
+    known: Vec<(Arc<Equations>, Arc<Form>)>,
+    /// The part of each interval in which its end was found.
+    parts: VecDeque<f64>,
+    /// Whether the same intervals follow once more.
+    is_again: bool,
+}
 
 impl Shared {
+    /// From now on the intervals follow once more, hardly changed.
+    pub(crate) fn again(&mut self) {
+        self.is_again = true;
+    }
+
+    /// The part of the next interval in which its end was found before, if it was.
+    pub(crate) fn part(&mut self) -> Option<f64> {
+        if self.is_again { self.parts.pop_front() } else { None }
+    }
+
+    /// Remembers the part of an interval in which its end was found.
+    pub(crate) fn found_in(&mut self, part: f64) {
+        if !self.is_again {
+            self.parts.push_back(part);
+        }
+    }
+
     /// The last that was remembered of equations that are alike, bit by bit.
     pub(super) fn of(&self, own: &Equations) -> Option<&(Arc<Equations>, Arc<Form>)> {
-        self.0.iter().rev().find(|known| *known.0 == *own)
+        self.known.iter().rev().find(|known| *known.0 == *own)
     }
 
     pub(super) fn remember(&mut self, equations: &Arc<Equations>, form: &Arc<Form>) {
-        if self.0.iter().any(|known| Arc::ptr_eq(&known.1, form)) {
+        if self.known.iter().any(|known| Arc::ptr_eq(&known.1, form)) {
             return;
         }
-        if self.0.len() == REMEMBERED {
-            self.0.remove(0).1.tables.clear();
+        if self.known.len() == REMEMBERED {
+            self.known.remove(0).1.tables.clear();
         }
-        self.0.push((Arc::clone(equations), Arc::clone(form)));
+        self.known.push((Arc::clone(equations), Arc::clone(form)));
     }
 }
 
 impl Drop for Shared {
     /// The solutions remain, without the tables that were made on the way.
     fn drop(&mut self) {
-        self.0.iter().for_each(|known| known.1.tables.clear());
+        self.known.iter().for_each(|known| known.1.tables.clear());
     }
 }

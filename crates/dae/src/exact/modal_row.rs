@@ -54,7 +54,7 @@ impl ModalRow {
 
     /// The value where the modal coordinates are `c`.
     pub(super) fn value(&self, c: &[Complex]) -> f64 {
-        self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
+        self.row.iter().zip(c).map(|(r, c)| r.re * c.re - r.im * c.im).sum()
     }
 
     /// The sum of all terms' sizes where those of the modal coordinates are `c`.

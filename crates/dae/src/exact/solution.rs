@@ -54,7 +54,8 @@ pub(crate) struct Solution {
 #[derive(Debug)]
 struct Instants {
     times: Vec<f64>,
-    coordinates: Vec<Vec<Complex>>,
+    /// One row of coordinates after another.
+    coordinates: Vec<Complex>,
 }
 
 #[derive(Debug)]
@@ -173,7 +174,7 @@ impl Solution {
                 let at = self.system.span_at(t);
                 coordinates_at(&form.modes, &spans[at].start, t - self.system.spans[at].start)
             };
-            let coordinates = times.iter().map(coordinates).collect();
+            let coordinates = times.iter().flat_map(coordinates).collect();
             Arc::new(Instants { times: times.to_vec(), coordinates })
         };
         let known = self.instants.get_or_init(found);
@@ -384,15 +385,14 @@ impl Solution {
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
         let own = system.outputs.at(output);
-        match self.common(system) {
-            Some(common) => {
-                self.told((&common.rows[output], common.scales[output]), Some(common), own.scale)
-            }
-            None => {
-                let row = self.row(system, output, 0);
-                self.told((&row, self.scale(&row, &self.largest())), None, own.scale)
-            }
+        let common = self.common(system);
+        // Whoever asks may have added outputs.
+        let known = common.and_then(|own| Some((own.rows.get(output)?, own.scales[output])));
+        if let Some(known) = known {
+            return self.told(known, common, own.scale);
         }
+        let row = self.row(system, output, 0);
+        self.told((&row, self.scale(&row, &self.largest())), common, own.scale)
     }
 
     fn has_rates(&self) -> bool {
@@ -420,9 +420,10 @@ impl Dense for Solution {
             return None;
         }
         let unit = system.outputs.at(output).scale;
-        let coordinates = &self.instants(times).coordinates;
+        let instants = self.instants(times);
         let by = |row: &ModalRow, unit: f64| {
-            coordinates.iter().map(|own| unit * row.value(own)).collect()
+            let all = instants.coordinates.chunks_exact(form.modes.len().max(1));
+            all.map(|own| unit * row.value(own)).collect()
         };
         Some(match order {
             0 => by(&form.rows(&self.system, &system.outputs)[output], unit),

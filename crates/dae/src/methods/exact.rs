@@ -254,7 +254,7 @@ impl Exact {
     fn follow(
         system: &System,
         run: &Run,
-        shared: Option<&mut Shared>,
+        mut shared: Option<&mut Shared>,
         observer: &mut dyn Observer,
     ) -> Result<Trajectory, SolveError> {
         let begin = Instant::now();
@@ -271,8 +271,13 @@ impl Exact {
             solution = solution.decomposed();
             let end = run.t_end / system.time_scale;
             // Where a run may stop, the first part of it is looked at first.
-            let parts =
+            let mut parts =
                 if may_stop(run) { shares(solution.radians(end, LIFETIMES)) } else { vec![1.0] };
+            if let Some(before) = shared.as_deref_mut().and_then(Shared::part) {
+                parts.retain(|share| *share > before);
+                parts.insert(0, before);
+            }
+            let mut last = 1.0;
             for share in parts {
                 if may_stop(run) {
                     Self::count(&solution, share * end)?;
@@ -297,6 +302,7 @@ impl Exact {
                 events = found;
                 if let Some(stop) = stop {
                     (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
+                    last = part / run.t_end;
                     solution = solution.until(t_end);
                     break;
                 }
@@ -304,6 +310,9 @@ impl Exact {
                 if observer.progress(progress).is_break() {
                     return Err(SolveError::Cancelled { time: progress.time });
                 }
+            }
+            if let Some(shared) = shared.as_deref_mut() {
+                shared.found_in(last);
             }
         }
         if observer.progress(Progress { time: t_end, steps: 0 }).is_break() {

@@ -118,17 +118,17 @@ impl Signal {
         }
         // What is equal but for rounding; the largest only grows.
         let equal_to = |most: f64| most - ROUNDINGS * f64::EPSILON * most.abs();
-        let mut candidates: Vec<Cow<'_, Panel>> = Vec::new();
+        let turns_of = |panel: &Panel| sign_changes(&chebyshev::derivative(&panel.coefficients));
+        let mut candidates: Vec<(Cow<'_, Panel>, Option<Vec<f64>>)> = Vec::new();
         for panel in panels {
             let bound = goal.bound(&panel.coefficients);
             let is_less = bound < most;
-            if !is_less {
-                for x in sign_changes(&chebyshev::derivative(&panel.coefficients)) {
-                    most = consider(panel.time(x), evaluate(&panel.coefficients, x));
-                }
+            let turns = (!is_less).then(|| turns_of(&panel));
+            for &x in turns.iter().flatten() {
+                most = consider(panel.time(x), evaluate(&panel.coefficients, x));
             }
             if bound >= equal_to(most) {
-                candidates.push(panel);
+                candidates.push((panel, turns));
             }
         }
         let Some(best) = best else {
@@ -136,14 +136,15 @@ impl Signal {
             return Extremum { time, value: self.value(time) };
         };
         let equal = equal_to(most);
-        let before = candidates.iter().take_while(|panel| panel.start < best.time);
-        let first =
-            before.filter(|panel| goal.bound(&panel.coefficients) >= equal).find_map(|panel| {
-                let turns = sign_changes(&chebyshev::derivative(&panel.coefficients));
+        let before = candidates.into_iter().take_while(|own| own.0.start < best.time);
+        let first = before.filter(|own| goal.bound(&own.0.coefficients) >= equal).find_map(
+            |(panel, turns)| {
+                let turns = turns.unwrap_or_else(|| turns_of(&panel));
                 let mut places = [-1.0].into_iter().chain(turns).chain([1.0]);
                 let is_equal = |x: &f64| goal.merit(evaluate(&panel.coefficients, *x)) >= equal;
                 places.find(is_equal).map(|x| panel.time(x))
-            });
+            },
+        );
         Extremum { time: first.map_or(best.time, |first| first.min(best.time)), ..best }
     }
 }

@@ -154,22 +154,26 @@ impl Chain {
             let shifts = if shift == 0.0 { &[0.0][..] } else { &[0.0, shift] };
             // An interval that ends earlier by a rounding is not followed beyond its end.
             let end = other.end - other.start;
-            let all: Vec<(&Panel, f64, f64)> = shifts
+            let inside: Vec<(&Panel, f64)> = places().collect();
+            let times = inside.iter().map(|own| own.1);
+            let all: Vec<(usize, f64)> = shifts
                 .iter()
-                .flat_map(|by| places().map(move |(panel, t)| (panel, t, t + by)))
-                .filter(|own| own.2 > 0.0 && own.2 <= end)
+                .flat_map(|by| times.clone().map(move |t| t + by).enumerate())
+                .filter(|own| own.1 > 0.0 && own.1 <= end)
                 .collect();
             let values = || {
-                let [ours, theirs]: [Vec<f64>; 2] =
-                    all.iter().map(|own| (own.1, own.2)).unzip().into();
-                one.values(told, &ours).zip(other.values(told, &theirs))
+                let ours = one.values(told, &times.clone().collect::<Vec<_>>())?;
+                let theirs: Vec<f64> = all.iter().map(|own| own.1).collect();
+                Some((ours, other.values(told, &theirs)?))
             };
             let is_kept = self.intervals.len() <= MANY;
             let (ours, theirs) = is_kept.then(values).flatten().unwrap_or_else(|| {
                 let double = self.signal_of(other, told);
-                all.iter().map(|(panel, t, at)| (panel.value(*t), double.left_value(*at))).unzip()
+                let theirs = all.iter().map(|own| double.left_value(own.1));
+                (inside.iter().map(|(panel, t)| panel.value(*t)).collect(), theirs.collect())
             });
-            let differences = ours.iter().zip(&theirs).map(|(own, other)| (own - other).abs());
+            let differences =
+                all.iter().zip(&theirs).map(|(own, other)| (ours[own.0] - other).abs());
             return Some(differences.fold(0.0, f64::max));
         }
         let mut known: Option<(usize, Signal)> = None;

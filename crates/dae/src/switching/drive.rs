@@ -60,6 +60,7 @@ pub fn integrate(
         let limits = (threshold, Perturbed::most_intervals(chain.intervals.len()));
         let end = Progress { time: t_end, steps: found.statistics.accepted };
         let mut afterwards = Afterwards { end, observer };
+        shared.again();
         chain.doubled = Some(
             match solve(method, &perturbed, &unwatched, limits, &mut shared, &mut afterwards) {
                 Ok(other) => other.chain.intervals,
