@@ -114,8 +114,8 @@ impl Form {
 #[derive(Debug, Default)]
 pub struct Shared {
     known: Vec<(Arc<Equations>, Arc<Form>)>,
-    /// The part of each interval in which its end was found.
-    parts: VecDeque<f64>,
+    /// The part of each interval \[s\] in which its end was found.
+    parts: VecDeque<Option<f64>>,
     /// Whether the same intervals follow once more.
     is_again: bool,
 }
@@ -126,13 +126,13 @@ impl Shared {
         self.is_again = true;
     }
 
-    /// The part of the next interval in which its end was found before, if it was.
+    /// The part of the next interval \[s\] in which its end was found before, if it was.
     pub(crate) fn part(&mut self) -> Option<f64> {
-        if self.is_again { self.parts.pop_front() } else { None }
+        if self.is_again { self.parts.pop_front().flatten() } else { None }
     }
 
     /// Remembers the part of an interval in which its end was found.
-    pub(crate) fn found_in(&mut self, part: f64) {
+    pub(crate) fn found_in(&mut self, part: Option<f64>) {
         if !self.is_again {
             self.parts.push_back(part);
         }

@@ -271,42 +271,44 @@ impl Exact {
             solution = solution.decomposed();
             let end = run.t_end / system.time_scale;
             // Where a run may stop, the first part of it is looked at first.
-            let mut parts =
+            let shares =
                 if may_stop(run) { shares(solution.radians(end, LIFETIMES)) } else { vec![1.0] };
+            let mut parts: Vec<f64> = shares.into_iter().map(|own| own * run.t_end).collect();
+            // To the bit the part in which the same interval ended: an end that hangs on roundings is the same there.
             if let Some(before) = shared.as_deref_mut().and_then(Shared::part) {
-                parts.retain(|share| *share > before);
+                parts.retain(|part| *part > before);
                 parts.insert(0, before);
             }
-            let mut last = 1.0;
-            for share in parts {
+            let mut last = None;
+            for mut part in parts {
+                let until = part;
                 if may_stop(run) {
-                    Self::count(&solution, share * end)?;
+                    Self::count(&solution, until / system.time_scale)?;
                 }
-                let mut part = share * run.t_end;
                 let (mut found, mut stop) = search(&solution, system, run, part);
                 // What is far away lies in the rounding of a polynomial that reaches there.
                 while let Some(near) =
                     stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part)
                 {
-                    part = BEYOND * near.time;
-                    let again = search(&solution, system, run, part);
+                    let nearer = BEYOND * near.time;
+                    let again = search(&solution, system, run, nearer);
                     if again.1.is_none() {
                         break;
                     }
-                    (found, stop) = again;
+                    (found, stop, part) = (again.0, again.1, nearer);
                 }
                 if run.budget.is_spent() {
-                    let (time, work) = (share * run.t_end, run.budget.done());
+                    let (time, work) = (until, run.budget.done());
                     return Err(SolveError::BudgetSpent { method: Self::KIND, time, work });
                 }
                 events = found;
                 if let Some(stop) = stop {
                     (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
-                    last = part / run.t_end;
+                    last = Some(part);
                     solution = solution.until(t_end);
                     break;
                 }
-                let progress = Progress { time: share * run.t_end, steps: 0 };
+                let progress = Progress { time: until, steps: 0 };
                 if observer.progress(progress).is_break() {
                     return Err(SolveError::Cancelled { time: progress.time });
                 }
