@@ -95,6 +95,11 @@ impl Outputs {
         own.heads.len() - 1
     }
 
+    /// Whether these are copies of one another.
+    pub(crate) fn are_those(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.packed, &other.packed)
+    }
+
     /// Gives back memory that was set aside for more.
     pub fn shrink_to_fit(&mut self) {
         let own = Arc::make_mut(&mut self.packed);

@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, time::Duration};
 
-use crate::{Digest, Event, Shared, Signal, System};
+use crate::{Digest, Event, Signal, System};
 
 /// How much work a run was.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -87,6 +87,18 @@ pub trait Dense: Debug + Send + Sync {
         self.signal(system, output).derivative()
     }
 
+    /// An output or, of order 1, its rate at these `times` \[s\] in SI units, but for rounding those of the signal;
+    /// `None` where the signal is the way to them.
+    fn values(
+        &self,
+        _system: &System,
+        _output: usize,
+        _order: usize,
+        _times: &[f64],
+    ) -> Option<Vec<f64>> {
+        None
+    }
+
     /// All unknowns, dimensionless, at each of the dimensionless `times` (rising, within the run):
     /// one row of `n` values after another. Empty for a run of several intervals, each of which has
     /// unknowns of its own, and where only a part is kept.
@@ -111,9 +123,6 @@ pub trait Dense: Debug + Send + Sync {
     /// Gives back memory that was taken so that further signals are quicker; they are as good without. Before the first
     /// signal it says that little is to be taken. What other solutions share stays.
     fn forget(&self) {}
-
-    /// Shares what it has alike with other solutions of the same run, bit by bit.
-    fn share(&mut self, _shared: &mut Shared) {}
 
     /// Memory that the solution takes \[B\], where it grows with the steps.
     fn bytes(&self) -> usize {

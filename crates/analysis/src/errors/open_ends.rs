@@ -65,14 +65,19 @@ impl OpenEnd {
 
     /// What one solution alone leaves open: where its force pulls by less than its error may be, and pushes again.
     /// `None` where that makes no difference to a measure beyond what is asked of it.
-    pub(crate) fn of_one(task: &Task<'_>, solved: &Solved) -> Option<Self> {
+    pub(crate) fn of_one(task: &Task<'_>, solved: &mut Solved) -> Option<Self> {
         if solved.threshold <= 0.0 {
             return None;
         }
-        let solution = || solved.as_read(task.assembly);
-        let ends = undecided_ends(&solution(), &Vec::new, solved.threshold);
+        let known = solved.known.take();
+        let mut solution = solved.as_read(task.assembly);
+        if let Some(known) = known {
+            solution = solution.knowing(known);
+        }
+        let ends = undecided_ends(&solution, &Vec::new, solved.threshold);
+        solved.known = Some(solution.known());
         let time = ends.iter().map(|end| end.1).reduce(f64::min)?;
-        let earlier = task.read(&mut solution().ending(ends));
+        let earlier = task.read(&mut solved.as_read(task.assembly).ending(ends));
         let differs = |(at, (own, other)): (usize, (&Reading, &Reading))| {
             let wish = task.settings.accuracy.of(&task.selected[at].key);
             let is_other = match (own.value, other.value) {

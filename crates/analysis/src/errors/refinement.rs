@@ -202,10 +202,11 @@ impl Task<'_> {
         let errors = solved.readings.iter().map(|reading| bound(reading).filter(|_| bounded));
         let errors: Vec<Option<f64>> = errors.collect();
         self.settle_zeros(&mut solved, &errors);
+        let open_end = if self.is_judged { OpenEnd::of_one(self, &mut solved) } else { None };
         Ok(Outcome {
             of_method: errors.clone(),
             errors,
-            open_end: self.is_judged.then(|| OpenEnd::of_one(self, &solved)).flatten(),
+            open_end,
             instants: None,
             solved,
             solves_for_error: 0,

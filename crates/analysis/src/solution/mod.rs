@@ -167,7 +167,7 @@ impl<'a> Solution<'a> {
     pub fn rate(&self, rate: Option<usize>, deformation: usize) -> Cow<'_, Signal> {
         match rate {
             Some(rate) => self.glance(rate),
-            None => Cow::Owned(self.glance(deformation).derivative()),
+            None => self.slopes(deformation),
         }
     }
 
@@ -184,9 +184,8 @@ impl<'a> Solution<'a> {
     /// The rate of a deformation as by [`rate`](Self::rate), but with a bound of its error where the method has
     /// one of rates that are no outputs.
     fn rate_with_bound(&self, connection: &ConnectionOutputs) -> Cow<'_, Signal> {
-        let dense = &self.trajectory.dense;
-        if connection.rate.is_none() && dense.has_rates() {
-            return Cow::Owned(dense.rate(&self.assembly.system, connection.deformation));
+        if connection.rate.is_none() && self.trajectory.dense.has_rates() {
+            return self.told_rate(connection.deformation);
         }
         self.rate(connection.rate, connection.deformation)
     }

@@ -48,6 +48,13 @@ pub(super) struct Sized<'p, const N: usize> {
 pub(super) struct Known {
     level: usize,
     ratio: f64,
+    /// Whether the one before would do for a point between others.
+    coarser_does: bool,
+}
+
+/// What the error that steps tell is multiplied by between points where it was so many times that.
+fn safe(ratio: f64) -> f64 {
+    f64::max(1.0, BETWEEN * ratio)
 }
 
 impl<const N: usize> Stamper for Sized<'_, N> {
@@ -86,15 +93,16 @@ impl<const N: usize> Thinned for Sized<'_, N> {
 
     fn agreed(&mut self, solved: [&Known; 3], _: [&Row<'_>; 3]) -> Option<Known> {
         let level = solved.iter().map(|own| own.level).max()?;
-        Some(Known { level, ratio: solved.iter().map(|own| own.ratio).fold(0.0, f64::max) })
+        let ratio = solved.iter().map(|own| own.ratio).fold(0.0, f64::max);
+        Some(Known { level, ratio, coarser_does: solved.iter().any(|own| own.coarser_does) })
     }
 
-    /// Solves a scene that is not linear once at the last but one tolerance of points about it, or else at the last, with the
-    /// error that its own steps tell, or more where it was more at those points.
+    /// Solves a scene that is not linear once at the last but one tolerance of points about it, where that would do at one of
+    /// them, or else at the last, with the error that its own steps tell, or more where it was more at those points.
     fn spared(&mut self, known: &Known, row: &mut Row<'_>) -> Option<()> {
         self.pose(row.point)?;
-        let factor = f64::max(1.0, BETWEEN * known.ratio);
-        let mut levels = known.level.saturating_sub(1)..=known.level;
+        let factor = safe(known.ratio);
+        let mut levels = known.level.saturating_sub(usize::from(known.coarser_does))..=known.level;
         row.notice = levels.find_map(|level| self.once((level, factor), row.values, row.errors));
         row.notice.map(|_| ())
     }
@@ -183,7 +191,12 @@ impl<const N: usize> Sized<'_, N> {
         }
         values.copy_from_slice(&found.values);
         errors.copy_from_slice(&found.errors);
-        let known = Known { level: found.others, ratio: found.ratio };
+        let (before, estimate) = found.before;
+        let factor = safe(found.ratio) * estimate;
+        let (before, doubts): (Vec<f64>, Vec<f64>) =
+            before.iter().map(|[value, unit]| (*value, factor * unit)).unzip();
+        let coarser_does = self.suffice(&before, &doubts);
+        let known = Known { level: found.others, ratio: found.ratio, coarser_does };
         Some((self.noticed(&found.course), known))
     }
 

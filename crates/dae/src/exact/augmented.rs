@@ -54,6 +54,17 @@ pub(crate) struct Equations {
     inputs: Vec<LinearForm>,
 }
 
+impl Equations {
+    /// The output, dimensionless, as a form over `z`.
+    pub(super) fn form(&self, output: Output<'_>) -> Vec<(usize, f64)> {
+        let mut form = output.unknowns.to_form();
+        for (input, coefficient) in output.inputs.terms() {
+            form = form.plus(coefficient, &self.inputs[input]);
+        }
+        form.terms().iter().map(|&(i, c)| (i, c * self.units[i])).collect()
+    }
+}
+
 impl Deref for Augmented {
     type Target = Equations;
 
@@ -118,15 +129,6 @@ impl Augmented {
     /// The span that begins at or before `t` and is not over.
     pub(super) fn span_at(&self, t: f64) -> usize {
         self.spans.partition_point(|span| span.start <= t).saturating_sub(1)
-    }
-
-    /// The output, dimensionless, as a form over `z`.
-    pub(super) fn form(&self, output: Output<'_>) -> Vec<(usize, f64)> {
-        let mut form = output.unknowns.to_form();
-        for (input, coefficient) in output.inputs.terms() {
-            form = form.plus(coefficient, &self.inputs[input]);
-        }
-        form.terms().iter().map(|&(i, c)| (i, c * self.units[i])).collect()
     }
 
     /// The rate of a form over `z`, per unit of dimensionless time. The products that it is made of stand in

@@ -3,7 +3,7 @@
 use dashpot_numerics::{two_product, two_sum};
 use nalgebra::DMatrix;
 
-use super::Complex;
+use super::{Complex, modal_row::size_of};
 
 /// Size of `M t` up to which the exponential's series is summed in one go.
 pub(super) const REACH: f64 = 2.0;
@@ -161,9 +161,12 @@ fn series(matrix: &DMatrix<Complex>, vector: &mut [Complex]) {
     let (mut term, mut next) = (vector.to_vec(), vector.to_vec());
     for k in 1..TERMS {
         next.fill(Complex::default());
-        for (j, t) in term.iter().enumerate() {
-            for (i, n) in next.iter_mut().enumerate() {
-                *n += matrix[(i, j)] * t / k as f64;
+        let moving = |t: &&Complex| **t != Complex::default();
+        let columns = matrix.as_slice().chunks_exact(vector.len());
+        for (t, column) in term.iter().zip(columns).filter(|own| moving(&own.0)) {
+            // Most blocks are triangular.
+            for (n, entry) in next.iter_mut().zip(column).filter(|own| moving(&own.1)) {
+                *n += entry * t / k as f64;
             }
         }
         std::mem::swap(&mut term, &mut next);
@@ -172,7 +175,7 @@ fn series(matrix: &DMatrix<Complex>, vector: &mut [Complex]) {
         }
         let mut settled = true;
         for (sum, t) in vector.iter_mut().zip(&term) {
-            settled &= t.norm() <= 1e-18 * sum.norm();
+            settled &= size_of(*t) <= 1e-18 * size_of(*sum);
             *sum += t;
         }
         if settled && k >= vector.len() {

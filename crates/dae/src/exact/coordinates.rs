@@ -178,15 +178,35 @@ fn coupling_error(modes: &Modes, sizes: &[f64], length: f64) -> Vec<f64> {
     let growth = modes.blocks.iter().map(Block::growth_rate).fold(0.0, f64::max);
     let largest = |block: &Block, sizes: &[f64]| block.largest_discounted(length, sizes, growth);
     let integral = |block: &Block, sizes: &[f64]| block.integral(length, sizes, growth);
+    // Of a single mode what it answers to one tells all.
+    let answer = |block: &Block| {
+        let answer = || (integral(block, &[1.0])[0], largest(block, &[1.0])[0]);
+        (block.len() == 1).then(answer)
+    };
+    let answers: Vec<Option<(f64, f64)>> = modes.blocks.iter().map(answer).collect();
+    let times = |push: f64, answer: f64| if push == 0.0 { 0.0 } else { push * answer };
     let mut tops = Vec::with_capacity(sizes.len());
     let mut areas = Vec::with_capacity(sizes.len());
-    for block in &modes.blocks {
-        tops.extend(largest(block, &sizes[block.range()]));
-        areas.extend(integral(block, &sizes[block.range()]));
+    for (block, answer) in modes.blocks.iter().zip(&answers) {
+        if let Some((held, spread)) = answer {
+            tops.push(times(sizes[block.start], *spread));
+            areas.push(times(sizes[block.start], *held));
+        } else {
+            tops.extend(largest(block, &sizes[block.range()]));
+            areas.extend(integral(block, &sizes[block.range()]));
+        }
     }
     let mut first = vec![0.0; sizes.len()];
-    for target in &modes.blocks {
+    for (target, answer) in modes.blocks.iter().zip(&answers) {
         for source in &modes.blocks {
+            if let Some((held, spread)) = answer {
+                let i = target.start;
+                let push = |all: &[f64]| -> f64 {
+                    source.range().map(|j| modes.defect[(i, j)] * all[j]).sum()
+                };
+                first[i] += times(push(&tops), *held).min(times(push(&areas), *spread));
+                continue;
+            }
             let pushed = |sizes: &[f64]| -> Vec<f64> {
                 let push = |i| source.range().map(|j| modes.defect[(i, j)] * sizes[j]).sum();
                 target.range().map(push).collect()
@@ -199,10 +219,18 @@ fn coupling_error(modes: &Modes, sizes: &[f64], length: f64) -> Vec<f64> {
         }
     }
     let again = |error: &[f64]| -> Vec<f64> {
-        let pushed: Vec<f64> = (0..error.len())
+        let mut pushed: Vec<f64> = (0..error.len())
             .map(|i| error.iter().enumerate().map(|(j, e)| modes.defect[(i, j)] * e).sum())
             .collect();
-        modes.blocks.iter().flat_map(|block| integral(block, &pushed[block.range()])).collect()
+        for (block, answer) in modes.blocks.iter().zip(&answers) {
+            if let Some((held, _)) = answer {
+                pushed[block.start] = times(pushed[block.start], *held);
+            } else {
+                let own = integral(block, &pushed[block.range()]);
+                pushed[block.range()].copy_from_slice(&own);
+            }
+        }
+        pushed
     };
     let factor = (growth * length).exp();
     enclose(&first, again).iter().map(|error| factor * error).collect()

@@ -1,6 +1,9 @@
 //! The modal decomposition of an augmented system.
 
-use std::sync::Arc;
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, PoisonError},
+};
 
 use nalgebra::DMatrix;
 
@@ -8,11 +11,13 @@ use super::{
     Augmented, Complex,
     augmented::Equations,
     decoupling::{Caution, Clusters, decouple},
+    modal_row::ModalRow,
     modes::{Modes, chains},
     refinement::refine,
     schur::ComplexSchur,
     tables::Tables,
 };
+use crate::Outputs;
 
 /// The modes of an augmented system over its run.
 ///
@@ -74,48 +79,84 @@ fn augmented_schur(system: &Augmented) -> Option<ComplexSchur> {
     Some(ComplexSchur { basis, triangle })
 }
 
-/// Of how many equations, and of how many modal forms, the last are remembered.
+/// Of how many equations the last are remembered.
 const REMEMBERED: usize = 32;
 
-/// The modes of a system, and what they do on panels: the same wherever a run begins.
+/// The modes of a system, what they do on panels, and what they make of its outputs: the same wherever a run begins.
 #[derive(Debug)]
 pub(super) struct Form {
     pub(super) modes: Modes,
     pub(super) tables: Tables,
+    /// The modal forms of outputs, one set for each that was asked for.
+    rows: Mutex<Vec<(Outputs, Arc<[ModalRow]>)>>,
 }
 
 impl Form {
     pub(super) fn of(modes: Modes) -> Self {
-        Self { modes, tables: Tables::default() }
+        Self { modes, tables: Tables::default(), rows: Mutex::default() }
+    }
+
+    /// The modal forms of all outputs of a system with these equations.
+    pub(super) fn rows(&self, equations: &Equations, outputs: &Outputs) -> Arc<[ModalRow]> {
+        let mut known = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, rows)) = known.iter().find(|own| own.0.are_those(outputs)) {
+            return Arc::clone(rows);
+        }
+        let row = |output| ModalRow::new(&self.modes, &equations.form(output));
+        let rows: Arc<[ModalRow]> = outputs.iter().map(row).collect();
+        known.push((outputs.clone(), Arc::clone(&rows)));
+        rows
     }
 }
 
-/// What solutions that were met before are made of, so that those which follow need not keep it again:
+/// What solutions that were met before are made of, so that those which follow need not find and keep it again:
 /// a run that switches goes through the same few sets of equations.
 #[derive(Debug, Default)]
 pub struct Shared {
-    equations: Vec<Arc<Equations>>,
-    forms: Vec<Arc<Form>>,
+    known: Vec<(Arc<Equations>, Arc<Form>)>,
+    /// The part of each interval \[s\] in which its end was found.
+    parts: VecDeque<Option<f64>>,
+    /// Whether the same intervals follow once more.
+    is_again: bool,
 }
 
 impl Shared {
-    pub(super) fn equations(&mut self, own: &mut Arc<Equations>) {
-        share(&mut self.equations, own, |one, other| one == other);
+    /// From now on the intervals follow once more, hardly changed.
+    pub(crate) fn again(&mut self) {
+        self.is_again = true;
     }
 
-    pub(super) fn form(&mut self, own: &mut Arc<Form>) {
-        share(&mut self.forms, own, |one, other| one.modes == other.modes);
+    /// The part of the next interval \[s\] in which its end was found before, if it was.
+    pub(crate) fn part(&mut self) -> Option<f64> {
+        if self.is_again { self.parts.pop_front().flatten() } else { None }
+    }
+
+    /// Remembers the part of an interval in which its end was found.
+    pub(crate) fn found_in(&mut self, part: Option<f64>) {
+        if !self.is_again {
+            self.parts.push_back(part);
+        }
+    }
+
+    /// The last that was remembered of equations that are alike, bit by bit.
+    pub(super) fn of(&self, own: &Equations) -> Option<&(Arc<Equations>, Arc<Form>)> {
+        self.known.iter().rev().find(|known| *known.0 == *own)
+    }
+
+    pub(super) fn remember(&mut self, equations: &Arc<Equations>, form: &Arc<Form>) {
+        if self.known.iter().any(|known| Arc::ptr_eq(&known.1, form)) {
+            return;
+        }
+        if self.known.len() == REMEMBERED {
+            self.known.remove(0).1.tables.clear();
+        }
+        self.known.push((Arc::clone(equations), Arc::clone(form)));
     }
 }
 
-/// Takes what is alike from those that are known, or makes it known.
-fn share<T>(known: &mut Vec<Arc<T>>, own: &mut Arc<T>, is_same: impl Fn(&T, &T) -> bool) {
-    if let Some(same) = known.iter().rev().find(|other| is_same(other, own)) {
-        *own = Arc::clone(same);
-        return;
+impl Drop for Shared {
+    /// The solutions remain, without the tables that were made on the way.
+    fn drop(&mut self) {
+        self.known.iter().for_each(|known| known.1.tables.clear());
     }
-    if known.len() == REMEMBERED {
-        known.remove(0);
-    }
-    known.push(Arc::clone(own));
 }

@@ -54,7 +54,7 @@ impl ModalRow {
 
     /// The value where the modal coordinates are `c`.
     pub(super) fn value(&self, c: &[Complex]) -> f64 {
-        self.row.iter().zip(c).map(|(r, c)| (r * c).re).sum()
+        self.row.iter().zip(c).map(|(r, c)| r.re * c.re - r.im * c.im).sum()
     }
 
     /// The sum of all terms' sizes where those of the modal coordinates are `c`.
@@ -67,13 +67,10 @@ impl ModalRow {
         self.rates.iter().zip(c).map(|(rate, c)| rate * c).sum()
     }
 
-    /// An upper bound of the sum of all terms' sizes over a span.
-    pub(super) fn size(&self, modes: &Modes, span: &SpanCoordinates, length: f64) -> f64 {
-        let part = |block: &Block| {
-            let sizes: Vec<f64> = span.start[block.range()].iter().map(|c| c.norm()).collect();
-            let largest = block.largest(length, &sizes);
-            block.range().zip(largest).map(|(i, c)| self.sizes[i] * c).sum::<f64>()
-        };
+    /// An upper bound of the sum of all terms' sizes over a span, in which the coordinates are at most so
+    /// [large](largest_of).
+    pub(super) fn size(&self, modes: &Modes, largest: &[f64]) -> f64 {
+        let part = |block: &Block| block.range().map(|i| self.sizes[i] * largest[i]).sum::<f64>();
         modes.blocks.iter().filter(|block| block.weight > 0.0).map(part).sum()
     }
 
@@ -201,6 +198,16 @@ pub(super) fn coordinates_at(modes: &Modes, start: &[Complex], t: f64) -> Vec<Co
         }
     }
     coordinates
+}
+
+/// Bounds of `|c_j|` over a span of this length; 0 of modes that are not evaluated.
+pub(super) fn largest_of(modes: &Modes, span: &SpanCoordinates, length: f64) -> Vec<f64> {
+    let mut all = vec![0.0; modes.len()];
+    for block in modes.blocks.iter().filter(|block| block.weight > 0.0) {
+        let sizes: Vec<f64> = span.start[block.range()].iter().map(|c| c.norm()).collect();
+        all[block.range()].copy_from_slice(&block.largest(length, &sizes));
+    }
+    all
 }
 
 /// `|c_j|` of all coordinates.

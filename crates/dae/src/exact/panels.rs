@@ -306,12 +306,11 @@ impl<'m> Walk<'m> {
         };
         let mut sum = [0.0; COUNT];
         let Some(line) = self.lines.get(&step) else { return sum };
-        let courses = line.table.courses(self.modes);
         for (&at, share) in self.active.iter().zip(&line.shares) {
             let block = &self.modes.blocks[at];
             let range = block.range();
             let coordinates = &self.coordinates[range.clone()];
-            match (share, &courses[at]) {
+            match (share, line.table.course(self.modes, at)) {
                 (Share::Single(_), Course::Single { shape, .. }) => {
                     let is_faint = block.matrix[(0, 0)].re <= 0.0
                         && self.row.sizes_in(range)[0] * self.sizes[block.start] <= self.faint;
@@ -381,12 +380,11 @@ impl<'m> Walk<'m> {
         }
         let Some(line) = self.lines.get(&step) else { return false };
         let table = Arc::clone(&line.table);
-        let courses = table.courses(self.modes);
         for number in 0..self.active.len() {
             let at = self.active[number];
-            if let Course::Single { links, .. } = &courses[at] {
+            if let Some(link) = table.link(self.modes, at, anchor.links) {
                 let mode = self.modes.blocks[at].start;
-                self.coordinates[mode] = anchor.coordinates[mode] * links[anchor.links];
+                self.coordinates[mode] = anchor.coordinates[mode] * link;
             } else {
                 self.begin(at);
             }

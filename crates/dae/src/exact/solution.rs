@@ -9,7 +9,7 @@ use super::{
     coordinates::{SpanCoordinates, follow},
     decomposition::{Form, Shared, decompose},
     decoupling::CAUTIONS,
-    modal_row::{ModalRow, coordinates_at},
+    modal_row::{ModalRow, coordinates_at, largest_of},
     modes::Modes,
     panels::{Piece, Tally, interpolate},
     propagator::{Grid, advance, drifts, propagate},
@@ -30,6 +30,8 @@ const GENTLE: f64 = 1e6;
 const BRIEF: f64 = 20.0;
 /// Relative error bound below which no other clustering of the modes is tried.
 const GOOD: f64 = 1e-11;
+/// Most times at which the coordinates are kept that values are told from.
+const MOST_TIMES: usize = 256;
 /// Deviation from a uniform grid that is rounding, relative to the last time.
 const UNIFORM: f64 = 1e-14;
 
@@ -44,6 +46,16 @@ pub(crate) struct Solution {
     modal: OnceLock<Arc<Modal>>,
     /// What outputs share, where there is anything.
     common: OnceLock<Option<Arc<Common>>>,
+    /// Where values were asked for first.
+    instants: OnceLock<Arc<Instants>>,
+}
+
+/// Times \[s\] and the coordinates there.
+#[derive(Debug)]
+struct Instants {
+    times: Vec<f64>,
+    /// One row of coordinates after another.
+    coordinates: Vec<Complex>,
 }
 
 #[derive(Debug)]
@@ -53,9 +65,13 @@ struct Modal {
 }
 
 impl Modal {
-    fn of(system: &Augmented, modes: Modes) -> Self {
-        let spans = follow(system, &modes);
-        Self { form: Arc::new(Form::of(modes)), spans }
+    fn of(system: &Augmented, form: Arc<Form>) -> Self {
+        let spans = follow(system, &form.modes);
+        Self { form, spans }
+    }
+
+    fn in_modes(system: &Augmented, modes: Modes) -> Self {
+        Self::of(system, Arc::new(Form::of(modes)))
     }
 
     /// The largest error bound of any state relative to the largest state at any breakpoint, in the
@@ -81,8 +97,25 @@ impl Solution {
     /// The solution of the augmented system over a run that ends at `t_end` \[s\], within a budget:
     /// where that ends, signals have no bound.
     pub(crate) fn new(system: Augmented, (t_end, time_scale): (f64, f64), budget: Budget) -> Self {
-        let (modal, common) = (OnceLock::new(), OnceLock::new());
-        Self { system, t_end, time_scale, budget, modal, common }
+        let (modal, common, instants) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Self { system, t_end, time_scale, budget, modal, common, instants }
+    }
+
+    /// The same solution in the modes of one of the same equations, where it is as good in them.
+    pub(crate) fn alike(mut self, shared: &Shared) -> Self {
+        if let Some((equations, form)) = shared.of(&self.system.equations) {
+            self.system.equations = Arc::clone(equations);
+            let modal = Modal::of(&self.system, Arc::clone(form));
+            if modal.loss(&self.system) <= GOOD {
+                self.modal = OnceLock::from(Arc::new(modal));
+            }
+        }
+        self
+    }
+
+    /// Lets those of the same equations that follow know its modes.
+    pub(crate) fn share(&self, shared: &mut Shared) {
+        shared.remember(&self.system.equations, &self.modal().form);
     }
 
     /// The same solution on a run that ends earlier, at `t_end` \[s\].
@@ -93,7 +126,7 @@ impl Solution {
             last.end = end;
         }
         self.t_end = t_end;
-        self.common = OnceLock::new();
+        (self.common, self.instants) = (OnceLock::new(), OnceLock::new());
         self
     }
 
@@ -109,25 +142,50 @@ impl Solution {
         if modes.len() > MOST_MODES || spans.len() > MOST_SPANS {
             return None;
         }
-        let row = |output| self.row(&self.system.form(system.outputs.at(output)));
-        let rows: Vec<Told> = (0..system.outputs.len()).map(row).collect();
+        let (rows, largest) = (form.rows(&self.system, &system.outputs), self.largest());
+        let scales: Vec<f64> = rows.iter().map(|row| self.scale(row, &largest)).collect();
+        let told: Vec<Told<'_>> = rows.iter().zip(scales.iter().copied()).collect();
         let stations = |(span, own): (&Span, &SpanCoordinates)| {
-            Stations::of((modes, &self.budget), &own.start, span.length(), &rows)
+            Stations::of((modes, &self.budget), &own.start, span.length(), &told)
         };
         let spans = self.system.spans.iter().zip(spans).map(stations).collect::<Option<_>>()?;
-        Some(Arc::new(Common { rows, spans }))
+        Some(Arc::new(Common { rows, scales, spans }))
     }
 
-    /// The modal form of a linear form over `z`.
-    fn row(&self, form: &[(usize, f64)]) -> Told {
-        let Modal { form: modal, spans } = self.modal();
-        let row = ModalRow::new(&modal.modes, form);
-        let lengths = self.system.spans.iter().zip(spans);
-        let scale = lengths
-            .map(|(span, coordinates)| row.size(&modal.modes, coordinates, span.length()))
-            .filter(|size| size.is_finite())
-            .fold(0.0, f64::max);
-        (row, scale)
+    /// For each span how large the coordinates are at most.
+    fn largest(&self) -> Vec<Vec<f64>> {
+        let Modal { form, spans } = self.modal();
+        let all = self.system.spans.iter().zip(spans);
+        all.map(|(span, own)| largest_of(&form.modes, own, span.length())).collect()
+    }
+
+    /// The largest size of the terms of an output where the coordinates are so large.
+    fn scale(&self, row: &ModalRow, largest: &[Vec<f64>]) -> f64 {
+        let sizes = largest.iter().map(|own| row.size(&self.modal().form.modes, own));
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+    }
+
+    /// The coordinates at these times \[s\]; found once for those that are asked for first.
+    fn instants(&self, times: &[f64]) -> Arc<Instants> {
+        let found = || {
+            let Modal { form, spans } = self.modal();
+            let coordinates = |time: &f64| {
+                let t = time / self.time_scale;
+                let at = self.system.span_at(t);
+                coordinates_at(&form.modes, &spans[at].start, t - self.system.spans[at].start)
+            };
+            let coordinates = times.iter().flat_map(coordinates).collect();
+            Arc::new(Instants { times: times.to_vec(), coordinates })
+        };
+        let known = self.instants.get_or_init(found);
+        if known.times == times { Arc::clone(known) } else { found() }
+    }
+
+    /// The modal form of an output or, of order 1, of its rate.
+    fn row(&self, system: &System, output: usize, order: usize) -> ModalRow {
+        let form = self.system.form(system.outputs.at(output));
+        let form = if order == 0 { form } else { self.system.rate(&form) };
+        ModalRow::new(&self.modal().form.modes, &form)
     }
 
     /// Drops the tables that panels were made of, unless other solutions share them.
@@ -149,7 +207,7 @@ impl Solution {
             let mut best: Option<(f64, Modal)> = None;
             for caution in CAUTIONS {
                 self.budget.charge_decomposition(self.system.size());
-                let modal = Modal::of(&self.system, decompose(&self.system, caution));
+                let modal = Modal::in_modes(&self.system, decompose(&self.system, caution));
                 let loss = modal.loss(&self.system);
                 if best.as_ref().is_none_or(|(least, _)| loss < *least) {
                     best = Some((loss, modal));
@@ -160,7 +218,7 @@ impl Solution {
             }
             Arc::new(match best {
                 Some((loss, modal)) if loss.is_finite() => modal,
-                _ => Modal::of(&self.system, Modes::undivided(&self.system)),
+                _ => Modal::in_modes(&self.system, Modes::undivided(&self.system)),
             })
         })
     }
@@ -286,9 +344,9 @@ impl Solution {
     }
 
     /// An output in SI units, of which the dimensionless value 1 is `unit`.
-    fn told(&self, told: &Told, common: Option<&Common>, unit: f64) -> Signal {
-        let Modal { form: modal, spans } = self.modal();
-        let Form { modes, tables } = modal.as_ref();
+    fn told(&self, told: Told<'_>, common: Option<&Common>, unit: f64) -> Signal {
+        let Modal { form, spans } = self.modal();
+        let (modes, tables) = (&form.modes, &form.tables);
         let (row, scale) = told;
         let (mut tally, mut pieces) = (Tally::default(), Vec::new());
         for (at, (span, coordinates)) in self.system.spans.iter().zip(spans).enumerate() {
@@ -299,7 +357,7 @@ impl Solution {
             if shared.is_none() {
                 let place = (span.start, span.length());
                 let known = (&mut tally, &self.budget);
-                interpolate(row, (modes, tables), coordinates, place, *scale, known, &mut pieces);
+                interpolate(row, (modes, tables), coordinates, place, scale, known, &mut pieces);
             }
         }
         let noise = NOISE * f64::EPSILON * tally.size * unit.abs();
@@ -326,12 +384,15 @@ impl Solution {
 
 impl Dense for Solution {
     fn signal(&self, system: &System, output: usize) -> Signal {
-        let common = self.common(system);
         let own = system.outputs.at(output);
-        match common.and_then(|common| common.rows.get(output)) {
-            Some(told) => self.told(told, common, own.scale),
-            None => self.told(&self.row(&self.system.form(own)), common, own.scale),
+        let common = self.common(system);
+        // Whoever asks may have added outputs.
+        let known = common.and_then(|own| Some((own.rows.get(output)?, own.scales[output])));
+        if let Some(known) = known {
+            return self.told(known, common, own.scale);
         }
+        let row = self.row(system, output, 0);
+        self.told((&row, self.scale(&row, &self.largest())), common, own.scale)
     }
 
     fn has_rates(&self) -> bool {
@@ -339,9 +400,35 @@ impl Dense for Solution {
     }
 
     fn rate(&self, system: &System, output: usize) -> Signal {
-        let output = system.outputs.at(output);
-        let form = self.system.rate(&self.system.form(output));
-        self.told(&self.row(&form), self.common(system), output.scale / self.time_scale)
+        let row = self.row(system, output, 1);
+        let told = (&row, self.scale(&row, &self.largest()));
+        let unit = system.outputs.at(output).scale / self.time_scale;
+        self.told(told, self.common(system), unit)
+    }
+
+    fn values(
+        &self,
+        system: &System,
+        output: usize,
+        order: usize,
+        times: &[f64],
+    ) -> Option<Vec<f64>> {
+        let Modal { form, spans } = self.modal();
+        let is_forgotten = matches!(self.common.get(), Some(None));
+        let is_large = form.modes.len() > MOST_MODES || spans.len() > MOST_SPANS;
+        if is_forgotten || is_large || times.len() > MOST_TIMES {
+            return None;
+        }
+        let unit = system.outputs.at(output).scale;
+        let instants = self.instants(times);
+        let by = |row: &ModalRow, unit: f64| {
+            let all = instants.coordinates.chunks_exact(form.modes.len().max(1));
+            all.map(|own| unit * row.value(own)).collect()
+        };
+        Some(match order {
+            0 => by(&form.rows(&self.system, &system.outputs)[output], unit),
+            _ => by(&self.row(system, output, order), unit / self.time_scale),
+        })
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {
@@ -358,13 +445,6 @@ impl Dense for Solution {
         // Nothing that outputs would share is made any more.
         let _ = self.common.set(None);
         self.clear();
-    }
-
-    fn share(&mut self, shared: &mut Shared) {
-        shared.equations(&mut self.system.equations);
-        if let Some(modal) = self.modal.get_mut().and_then(Arc::get_mut) {
-            shared.form(&mut modal.form);
-        }
     }
 
     fn bytes(&self) -> usize {

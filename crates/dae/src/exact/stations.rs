@@ -1,5 +1,7 @@
 //! Panels that outputs share: what the modes do on them is found once, and an output adds it up.
 
+use std::sync::Arc;
+
 use dashpot_numerics::chebyshev::Interpolation;
 
 use super::{
@@ -26,12 +28,14 @@ const SAFETY: f64 = 0.98;
 const TRIALS: usize = 40;
 
 /// The modal form of an output, and the largest size of its terms.
-pub(super) type Told = (ModalRow, f64);
+pub(super) type Told<'r> = (&'r ModalRow, f64);
 
 /// All outputs, and panels of each span that are good for all of them.
 #[derive(Debug)]
 pub(super) struct Common {
-    pub(super) rows: Vec<Told>,
+    pub(super) rows: Arc<[ModalRow]>,
+    /// For each the largest size of its terms.
+    pub(super) scales: Vec<f64>,
     pub(super) spans: Vec<Stations>,
 }
 
@@ -63,7 +67,7 @@ impl Stations {
         (modes, budget): (&Modes, &Budget),
         start: &[Complex],
         length: f64,
-        rows: &[Told],
+        rows: &[Told<'_>],
     ) -> Option<Self> {
         let is_moving = |block: &Block| block.weight > 0.0 && block.moves(start);
         let is_bounded = |block| !is_moving(block) || is_told(block);
@@ -83,7 +87,7 @@ impl Stations {
             let mut trials = 0;
             let (bounds, excess) = loop {
                 let bounds = bounds_at(width);
-                let excess = |(row, scale): &Told| {
+                let excess = |(row, scale): &Told<'_>| {
                     let missed = row.missed_within(modes, &bounds, &sizes);
                     excess_of(missed, tolerance(row.size_at(&sizes), *scale))
                 };
@@ -113,7 +117,7 @@ impl Stations {
     /// `None`, and nothing, where these panels are too wide for it.
     pub(super) fn interpolate(
         &self,
-        (row, scale): &Told,
+        (row, scale): Told<'_>,
         modes: &Modes,
         (span, start): (&SpanCoordinates, f64),
         tally: &mut Tally,
@@ -123,7 +127,7 @@ impl Stations {
         let before = pieces.len();
         for station in &self.all {
             let local = row.size_at(&station.sizes);
-            let tolerance = tolerance(local, *scale);
+            let tolerance = tolerance(local, scale);
             let missed = row.missed_within(modes, &station.bounds, &station.sizes);
             if excess_of(missed, tolerance) > 1.0 {
                 pieces.truncate(before);

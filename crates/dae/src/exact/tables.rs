@@ -111,8 +111,8 @@ pub(super) enum Course {
     Single {
         /// `e^{λ t}`.
         shape: Box<Shape>,
-        /// `e^{λ h}`, `e^{2 λ h}`, …
-        links: Box<[Complex; LINKS]>,
+        /// `e^{λ h}`, `e^{2 λ h}`, …, as far as they were asked for.
+        links: Box<[OnceLock<Complex>; LINKS]>,
     },
     /// `e^{D t}` of a cluster, column by column.
     Cluster(Vec<Shape>),
@@ -126,19 +126,27 @@ pub(super) struct Table {
     pub(super) width: f64,
     /// By block.
     pub(super) bounds: Vec<Bounds>,
-    courses: OnceLock<Vec<Course>>,
+    courses: Vec<OnceLock<Course>>,
 }
 
 impl Table {
     fn new(modes: &Modes, width: f64) -> Self {
         let bounds = modes.blocks.iter().map(|block| Bounds::of(block, width)).collect();
-        Self { width, bounds, courses: OnceLock::new() }
+        let courses = modes.blocks.iter().map(|_| OnceLock::new()).collect();
+        Self { width, bounds, courses }
     }
 
-    /// What the blocks do.
-    pub(super) fn courses(&self, modes: &Modes) -> &[Course] {
-        let courses = || modes.blocks.iter().map(|block| Course::of(block, self.width)).collect();
-        self.courses.get_or_init(courses)
+    /// What the block of this number does.
+    pub(super) fn course(&self, modes: &Modes, at: usize) -> &Course {
+        self.courses[at].get_or_init(|| Course::of(&modes.blocks[at], self.width))
+    }
+
+    /// `e^{(k + 1) λ h}` of a single mode.
+    pub(super) fn link(&self, modes: &Modes, at: usize, k: usize) -> Option<Complex> {
+        let Course::Single { links, .. } = self.course(modes, at) else { return None };
+        let (block, time) = (&modes.blocks[at], (k + 1) as f64 * self.width);
+        let link = || exponential_of(block.matrix[(0, 0)], block.low[(0, 0)], time);
+        Some(*links[k].get_or_init(link))
     }
 }
 
@@ -182,10 +190,7 @@ impl Course {
             let (high, low) = (block.matrix[(0, 0)], block.low[(0, 0)]);
             let mut values = [Complex::default(); COUNT];
             values.iter_mut().zip(times).for_each(|(own, t)| *own = exponential_of(high, low, t));
-            let link = |k: usize| exponential_of(high, low, (k + 1) as f64 * width);
-            let (shape, links) =
-                (Box::new(Shape::of(&values)), Box::new(std::array::from_fn(link)));
-            return Self::Single { shape, links };
+            return Self::Single { shape: Box::new(Shape::of(&values)), links: Box::default() };
         }
         let count = block.len();
         let motion = block.motion();

@@ -1,7 +1,7 @@
 //! The choice of a method.
 
 use super::{Bdf, Dop853, Exact, stepping::is_stiff};
-use crate::{Method, MethodKind, Observer, Run, SolveError, System, Trajectory};
+use crate::{Method, MethodKind, Observer, Run, Shared, SolveError, System, Trajectory};
 
 /// Most unknowns of a system that is solved by an explicit method: of many it costs more to watch the stiffness
 /// than steps are saved.
@@ -62,6 +62,16 @@ impl Method for Auto {
         observer: &mut dyn Observer,
     ) -> Result<Trajectory, SolveError> {
         Self::choose(system, run).0.integrate(system, run, observer)
+    }
+
+    fn integrate_interval(
+        &self,
+        system: &System,
+        run: &Run,
+        shared: &mut Shared,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        Self::choose(system, run).0.integrate_interval(system, run, shared, observer)
     }
 }
 

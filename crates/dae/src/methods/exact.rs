@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use super::check;
 use crate::{
-    Event, Guard, Method, MethodKind, Observer, Outcome, Progress, Run, SolveError, Statistics,
-    System, Trajectory, Waveform,
+    Event, Guard, Method, MethodKind, Observer, Outcome, Progress, Run, Shared, SolveError,
+    Statistics, System, Trajectory, Waveform,
     events::{Stop, scan},
     exact::{Augmented, Solution},
 };
@@ -236,8 +236,32 @@ impl Method for Exact {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Trajectory, SolveError> {
+        Self::follow(system, run, None, observer)
+    }
+
+    fn integrate_interval(
+        &self,
+        system: &System,
+        run: &Run,
+        shared: &mut Shared,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        Self::follow(system, run, Some(shared), observer)
+    }
+}
+
+impl Exact {
+    fn follow(
+        system: &System,
+        run: &Run,
+        mut shared: Option<&mut Shared>,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
         let begin = Instant::now();
         let mut solution = Self::solve(system, run)?;
+        if let Some(shared) = &shared {
+            solution = solution.alike(shared);
+        }
         if let Some(lost) = solution.lost() {
             let unknown = system.unknowns.get(lost).map_or(String::new(), |u| u.name.clone());
             return Err(SolveError::NotFinite { method: Self::KIND, time: run.t_end, unknown });
@@ -247,45 +271,59 @@ impl Method for Exact {
             solution = solution.decomposed();
             let end = run.t_end / system.time_scale;
             // Where a run may stop, the first part of it is looked at first.
-            let parts =
+            let shares =
                 if may_stop(run) { shares(solution.radians(end, LIFETIMES)) } else { vec![1.0] };
-            for share in parts {
+            let mut parts: Vec<f64> = shares.into_iter().map(|own| own * run.t_end).collect();
+            // To the bit the part in which the same interval ended: an end that hangs on roundings is the same there.
+            if let Some(before) = shared.as_deref_mut().and_then(Shared::part) {
+                parts.retain(|part| *part > before);
+                parts.insert(0, before);
+            }
+            let mut last = None;
+            for mut part in parts {
+                let until = part;
                 if may_stop(run) {
-                    Self::count(&solution, share * end)?;
+                    Self::count(&solution, until / system.time_scale)?;
                 }
-                let mut part = share * run.t_end;
                 let (mut found, mut stop) = search(&solution, system, run, part);
                 // What is far away lies in the rounding of a polynomial that reaches there.
                 while let Some(near) =
                     stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part)
                 {
-                    part = BEYOND * near.time;
-                    let again = search(&solution, system, run, part);
+                    let nearer = BEYOND * near.time;
+                    let again = search(&solution, system, run, nearer);
                     if again.1.is_none() {
                         break;
                     }
-                    (found, stop) = again;
+                    (found, stop, part) = (again.0, again.1, nearer);
                 }
                 if run.budget.is_spent() {
-                    let (time, work) = (share * run.t_end, run.budget.done());
+                    let (time, work) = (until, run.budget.done());
                     return Err(SolveError::BudgetSpent { method: Self::KIND, time, work });
                 }
                 events = found;
                 if let Some(stop) = stop {
                     (t_end, outcome) = (stop.time, Outcome::Stopped { guard: stop.guard });
+                    last = Some(part);
                     solution = solution.until(t_end);
                     break;
                 }
-                let progress = Progress { time: share * run.t_end, steps: 0 };
+                let progress = Progress { time: until, steps: 0 };
                 if observer.progress(progress).is_break() {
                     return Err(SolveError::Cancelled { time: progress.time });
                 }
+            }
+            if let Some(shared) = shared.as_deref_mut() {
+                shared.found_in(last);
             }
         }
         if observer.progress(Progress { time: t_end, steps: 0 }).is_break() {
             return Err(SolveError::Cancelled { time: t_end });
         }
         let statistics = Statistics { wall: begin.elapsed(), ..Statistics::default() };
+        if let Some(shared) = shared {
+            solution.share(shared);
+        }
         // What was made on the way to the end.
         solution.clear();
         Ok(Trajectory {

@@ -13,7 +13,7 @@ pub use stepping::derivatives;
 
 use std::fmt::Debug;
 
-use crate::{Observer, Run, SolveError, System, Trajectory};
+use crate::{Observer, Run, Shared, SolveError, System, Trajectory};
 
 /// See [`Method::fall`]: orders 2 to 5 give 2/3 to 5/6.
 const FALL: f64 = 0.8;
@@ -55,6 +55,21 @@ pub trait Method: Debug + Send + Sync {
         run: &Run,
         observer: &mut dyn Observer,
     ) -> Result<Trajectory, SolveError>;
+
+    /// The same of an interval of a run, which shares with those before it what they have alike.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate`](Self::integrate).
+    fn integrate_interval(
+        &self,
+        system: &System,
+        run: &Run,
+        _shared: &mut Shared,
+        observer: &mut dyn Observer,
+    ) -> Result<Trajectory, SolveError> {
+        self.integrate(system, run, observer)
+    }
 }
 
 /// What a method says about itself.

@@ -68,6 +68,14 @@ impl Signal {
         None
     }
 
+    /// Whether all of a panel is so far from a level that no [floor](Self::floor) reaches there.
+    fn is_far(&self, panel: &Panel, level: f64) -> bool {
+        let middle = panel.coefficients.first().copied().unwrap_or(0.0);
+        let spread = chebyshev::variation(&panel.coefficients);
+        let rounding = 8.0 * f64::EPSILON * (level.abs() + middle.abs() + spread);
+        (middle - level).abs() > 2.0 * spread + rounding + self.noise
+    }
+
     /// Calls `visit` with each crossing until it returns `false`.
     fn visit_crossings(
         &self,
@@ -77,10 +85,21 @@ impl Signal {
     ) {
         let mut follower = Follower::default();
         for panel in self.panels_in(window) {
+            let [first, last] = chebyshev::at_ends(&panel.coefficients);
+            if self.is_far(&panel, level) {
+                for (x, value) in [(-1.0, first), (1.0, last)] {
+                    let point = Point { time: panel.time(x), gap: value - level, noise: 0.0 };
+                    if let Some((time, rising)) = follower.advance(point, || point.time)
+                        && !visit(Crossing { time, slope: self.slope(time), rising })
+                    {
+                        return;
+                    }
+                }
+                continue;
+            }
             let noise = self.floor(&panel, level);
             let search = Search::new(&panel, level, noise);
             let mut before = None;
-            let [first, last] = chebyshev::at_ends(&panel.coefficients);
             let inside = search.turns.iter().map(|&x| (x, evaluate(&panel.coefficients, x)));
             for (x, value) in iter::once((-1.0, first)).chain(inside).chain([(1.0, last)]) {
                 let gap = value - level;

@@ -1,8 +1,10 @@
 //! Largest and smallest values.
 
+use std::borrow::Cow;
+
 use dashpot_numerics::chebyshev::{self, evaluate, sign_changes};
 
-use super::{Extremum, Signal};
+use super::{Extremum, Panel, Signal};
 
 /// Values that differ by so many roundings are equal.
 const ROUNDINGS: f64 = 64.0;
@@ -114,28 +116,35 @@ impl Signal {
             consider(panel.start, first);
             most = consider(panel.end, last);
         }
+        // What is equal but for rounding; the largest only grows.
+        let equal_to = |most: f64| most - ROUNDINGS * f64::EPSILON * most.abs();
+        let turns_of = |panel: &Panel| sign_changes(&chebyshev::derivative(&panel.coefficients));
+        let mut candidates: Vec<(Cow<'_, Panel>, Option<Vec<f64>>)> = Vec::new();
         for panel in panels {
-            let coefficients = &panel.coefficients;
-            if goal.bound(coefficients) < most {
-                continue;
+            let bound = goal.bound(&panel.coefficients);
+            let is_less = bound < most;
+            let turns = (!is_less).then(|| turns_of(&panel));
+            for &x in turns.iter().flatten() {
+                most = consider(panel.time(x), evaluate(&panel.coefficients, x));
             }
-            for x in sign_changes(&chebyshev::derivative(coefficients)) {
-                most = consider(panel.time(x), evaluate(coefficients, x));
+            if bound >= equal_to(most) {
+                candidates.push((panel, turns));
             }
         }
         let Some(best) = best else {
             let time = if window.0 > self.end() { self.end() } else { self.start() };
             return Extremum { time, value: self.value(time) };
         };
-        let equal = most - ROUNDINGS * f64::EPSILON * most.abs();
-        let before = self.panels_in(window).take_while(|panel| panel.start < best.time);
-        let first =
-            before.filter(|panel| goal.bound(&panel.coefficients) >= equal).find_map(|panel| {
-                let turns = sign_changes(&chebyshev::derivative(&panel.coefficients));
+        let equal = equal_to(most);
+        let before = candidates.into_iter().take_while(|own| own.0.start < best.time);
+        let first = before.filter(|own| goal.bound(&own.0.coefficients) >= equal).find_map(
+            |(panel, turns)| {
+                let turns = turns.unwrap_or_else(|| turns_of(&panel));
                 let mut places = [-1.0].into_iter().chain(turns).chain([1.0]);
                 let is_equal = |x: &f64| goal.merit(evaluate(&panel.coefficients, *x)) >= equal;
                 places.find(is_equal).map(|x| panel.time(x))
-            });
+            },
+        );
         Extremum { time: first.map_or(best.time, |first| first.min(best.time)), ..best }
     }
 }

@@ -15,6 +15,13 @@ pub(super) struct Solved {
     pub(super) dense: Box<dyn Dense>,
 }
 
+impl Solved {
+    /// What is told at these times from its start on \[s\], where that is known without the signal.
+    fn values(&self, (output, order): Told, times: &[f64]) -> Option<Vec<f64>> {
+        self.dense.values(&self.system, output, order, times)
+    }
+}
+
 /// All intervals in order of time.
 #[derive(Debug, Default)]
 pub(super) struct Chain {
@@ -34,7 +41,7 @@ const CAUTION: f64 = 8.0;
 
 impl Dense for Chain {
     fn signal(&self, _system: &System, output: usize) -> Signal {
-        self.joined(|interval| interval.dense.signal(&interval.system, output))
+        self.joined((output, 0))
     }
 
     fn has_rates(&self) -> bool {
@@ -42,7 +49,7 @@ impl Dense for Chain {
     }
 
     fn rate(&self, _system: &System, output: usize) -> Signal {
-        self.joined(|interval| interval.dense.rate(&interval.system, output))
+        self.joined((output, 1))
     }
 
     fn sample(&self, _system: &System, _times: &[f64]) -> Vec<f64> {
@@ -58,6 +65,9 @@ impl Dense for Chain {
         all.map(|interval| interval.dense.bytes()).sum()
     }
 }
+
+/// An output, and 0 for it or 1 for its rate.
+type Told = (usize, usize);
 
 /// A bound of the slope of a signal. Panels that are too short to have one do not count.
 fn steepest(signal: &Signal) -> f64 {
@@ -78,13 +88,13 @@ impl Chain {
     /// Each interval bounds its own error, to which comes what the rounding of times does to a value. What the errors
     /// before it do to it is estimated from a second solution whose states were perturbed: eight times the largest
     /// difference of both, interval by interval, is added. Where the second one has no value, no error is stated.
-    fn joined(&self, signal: impl Fn(&Solved) -> Signal) -> Signal {
+    fn joined(&self, told: Told) -> Signal {
         let mut panels: Vec<Panel> = Vec::new();
         let (mut error, mut noise) = (Some(0.0_f64), 0.0_f64);
         let mut difference = Some(0.0_f64);
         let alone = self.intervals.len() == 1;
         for (at, interval) in self.intervals.iter().enumerate() {
-            let own = self.told(interval, &signal);
+            let own = self.signal_of(interval, told);
             noise = noise.max(own.noise);
             let timed = own.error.map(|error| {
                 // An interval bounds its error in its own time, which begins at a rounded one.
@@ -92,7 +102,7 @@ impl Chain {
             });
             error = error.zip(timed).map(|(most, own)| most.max(own));
             if !alone && error.is_some() {
-                let between = self.difference(at, &signal, &own);
+                let between = self.difference(at, told, &own);
                 difference = difference.zip(between).map(|(most, own)| most.max(own));
             }
             // What drives may jump where the interval ends, and nothing else has the new value yet.
@@ -115,52 +125,64 @@ impl Chain {
         Signal::new(panels, error, noise)
     }
 
-    fn told(&self, interval: &Solved, signal: impl Fn(&Solved) -> Signal) -> Signal {
+    fn signal_of(&self, interval: &Solved, (output, order): Told) -> Signal {
         let is_kept = self.intervals.len() <= MANY;
-        if is_kept {
-            return signal(interval);
+        if !is_kept {
+            interval.dense.forget();
         }
-        interval.dense.forget();
-        let signal = signal(interval);
-        interval.dense.forget();
+        let signal = match order {
+            0 => interval.dense.signal(&interval.system, output),
+            _ => interval.dense.rate(&interval.system, output),
+        };
+        if !is_kept {
+            interval.dense.forget();
+        }
         signal
     }
 
     /// The largest difference of a signal between an interval and the second solution. As long as
     /// both go through the same intervals, time counts from the start of each and from that of the
     /// run; where one of them has come to rest after fewer bounces, from that of the run only.
-    fn difference(
-        &self,
-        interval: usize,
-        signal: impl Fn(&Solved) -> Signal,
-        own: &Signal,
-    ) -> Option<f64> {
+    fn difference(&self, interval: usize, told: Told, own: &Signal) -> Option<f64> {
         let doubled = self.doubled.as_ref().filter(|all| !all.is_empty())?;
         let one = &self.intervals[interval];
         // Inside of panels only: where an input jumps, both may jump a rounding apart.
-        let mut places = own
-            .panels
-            .iter()
-            .flat_map(|panel| INSIDE.map(|x| panel.time(x)).map(|t| (t, panel.value(t))));
+        let places = || own.panels.iter().flat_map(|panel| INSIDE.map(|x| (panel, panel.time(x))));
         let all = doubled.len() == self.intervals.len();
         if let Some(other) = doubled.get(interval).filter(|other| is_same(one, other, all)) {
-            let double = self.told(other, &signal);
-            // An interval that ends earlier by a rounding is not followed beyond its end.
-            let end = double.end();
             let shift = one.start - other.start;
-            let differences = places.flat_map(|(t, value)| {
-                let within = [t, t + shift].into_iter().filter(|at| *at > 0.0 && *at <= end);
-                within.map(|at| (value - double.left_value(at)).abs()).collect::<Vec<_>>()
+            let shifts = if shift == 0.0 { &[0.0][..] } else { &[0.0, shift] };
+            // An interval that ends earlier by a rounding is not followed beyond its end.
+            let end = other.end - other.start;
+            let inside: Vec<(&Panel, f64)> = places().collect();
+            let times = inside.iter().map(|own| own.1);
+            let all: Vec<(usize, f64)> = shifts
+                .iter()
+                .flat_map(|by| times.clone().map(move |t| t + by).enumerate())
+                .filter(|own| own.1 > 0.0 && own.1 <= end)
+                .collect();
+            let values = || {
+                let ours = one.values(told, &times.clone().collect::<Vec<_>>())?;
+                let theirs: Vec<f64> = all.iter().map(|own| own.1).collect();
+                Some((ours, other.values(told, &theirs)?))
+            };
+            let is_kept = self.intervals.len() <= MANY;
+            let (ours, theirs) = is_kept.then(values).flatten().unwrap_or_else(|| {
+                let double = self.signal_of(other, told);
+                let theirs = all.iter().map(|own| double.left_value(own.1));
+                (inside.iter().map(|(panel, t)| panel.value(*t)).collect(), theirs.collect())
             });
+            let differences =
+                all.iter().zip(&theirs).map(|(own, other)| (ours[own.0] - other).abs());
             return Some(differences.fold(0.0, f64::max));
         }
         let mut known: Option<(usize, Signal)> = None;
-        places.try_fold(0.0_f64, |most, (t, value)| {
-            let time = one.start + t;
+        places().try_fold(0.0_f64, |most, (panel, t)| {
+            let (time, value) = (one.start + t, panel.value(t));
             let at = doubled.partition_point(|other| other.end < time);
             let other = doubled.get(at)?;
             if known.as_ref().is_none_or(|(known, _)| *known != at) {
-                known = Some((at, self.told(other, &signal)));
+                known = Some((at, self.signal_of(other, told)));
             }
             let double = known.as_ref().map(|(_, known)| known.left_value(time - other.start))?;
             Some(most.max((value - double).abs()))

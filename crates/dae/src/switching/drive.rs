@@ -60,6 +60,7 @@ pub fn integrate(
         let limits = (threshold, Perturbed::most_intervals(chain.intervals.len()));
         let end = Progress { time: t_end, steps: found.statistics.accepted };
         let mut afterwards = Afterwards { end, observer };
+        shared.again();
         chain.doubled = Some(
             match solve(method, &perturbed, &unwatched, limits, &mut shared, &mut afterwards) {
                 Ok(other) => other.chain.intervals,
@@ -107,7 +108,7 @@ fn solve(
     let (mut at_once, mut bytes) = (0, 0);
     loop {
         let start = drive.start.high();
-        let (mut trajectory, reached) = drive.interval(method, &interval, &mut found)?;
+        let (trajectory, reached) = drive.interval(method, &interval, shared, &mut found)?;
         let t_end = reached.high();
         let goes_on = found.goes_on(&interval, &trajectory, t_end, run);
         if trajectory.outcome == Outcome::Finished && !goes_on && !method.is_exact() {
@@ -121,7 +122,6 @@ fn solve(
         let fired: Vec<usize> =
             trajectory.events.iter().filter(at_end).map(|event| event.guard).collect();
         let name = trajectory.method;
-        trajectory.dense.share(shared);
         bytes += trajectory.dense.bytes();
         drive.chain.intervals.push(Solved {
             start,
@@ -240,6 +240,7 @@ impl Drive<'_> {
         &mut self,
         method: &dyn Method,
         interval: &ModeInterval,
+        shared: &mut Shared,
         found: &mut Found,
     ) -> Result<(Trajectory, DoubleDouble), SolveError> {
         let own = interval.guards.len();
@@ -265,7 +266,7 @@ impl Drive<'_> {
         };
         let trajectory = match followed {
             Some(trajectory) => trajectory,
-            None => solve_to_size(interval, method, run, &mut shifted).map_err(later)?,
+            None => solve_to_size(interval, method, run, shared, &mut shifted).map_err(later)?,
         };
         let finished = trajectory.outcome == Outcome::Finished;
         let t_end = if finished { last.into() } else { self.start + trajectory.t_end };
@@ -287,9 +288,10 @@ fn solve_to_size(
     interval: &ModeInterval,
     method: &dyn Method,
     mut run: Run,
+    shared: &mut Shared,
     observer: &mut Shifted<'_>,
 ) -> Result<Trajectory, SolveError> {
-    let mut found = method.integrate(&interval.system, &run, observer)?;
+    let mut found = method.integrate_interval(&interval.system, &run, shared, observer)?;
     if method.is_exact() {
         return Ok(found);
     }
@@ -297,7 +299,7 @@ fn solve_to_size(
         observer.steps += found.statistics.accepted;
         run.tolerance_scaling = sizes;
         let work = found.statistics;
-        match method.integrate(&interval.system, &run, observer) {
+        match method.integrate_interval(&interval.system, &run, shared, observer) {
             Ok(finer) => found = finer,
             Err(error @ SolveError::Cancelled { .. }) => return Err(error),
             Err(_) => break,

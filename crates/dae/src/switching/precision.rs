@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use super::{IntervalEnd, ModeInterval, Switching};
 use crate::{
     Dense, Direction, Guard, Observer, Progress, Run, SolveError, System, Trajectory, UnknownKind,
-    pieces::ROUNDING,
+    pieces::ROUNDING, run::Instant,
 };
 
 /// An output that has strayed from its level by less than this part of what tolerances are made for is
@@ -69,11 +69,18 @@ pub(super) fn smaller_sizes(
     let before = |unknown: usize| run.tolerance_scaling.get(unknown).copied().unwrap_or(1.0);
     let mut found: Option<Vec<f64>> = None;
     let mut collected: Option<Vec<f64>> = None;
+    let middle = 0.5 * trajectory.t_end / system.time_scale;
+    let instants = [0.0, middle]
+        .map(|time| Instant::new(system, trajectory.dense.sample(system, &[time]), (time, time)));
     for guard in &interval.guards {
         let output = system.outputs.at(guard.output);
         let scale = output.scale.abs();
         let terms = || output.unknowns.terms().map(|(at, factor)| (at, scale * factor.abs()));
         let unit: f64 = terms().map(|(at, factor)| factor * before(at)).sum();
+        let strays = |at: &Instant| (at.value(system, guard.output) - guard.level).abs();
+        if instants.iter().any(|own| strays(own) > 2.0 * SMALL * unit) {
+            continue;
+        }
         let held = held(trajectory.dense.as_ref(), system, guard.output, guard.level);
         if !(held > 0.0 && held < SMALL * unit) {
             continue;

@@ -4,7 +4,8 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use super::{IntervalEnd, ModeInterval, Switch, Switching, integrate};
 use crate::{
-    Direction, Event, Guard, Method, Observer, Outcome, Progress, Run, Silent, SolveError,
+    Budget, Direction, Event, Guard, Method, Observer, Outcome, Progress, Run, Shared, Silent,
+    SolveError,
     methods::{all, by_name},
     tests::problems,
 };
@@ -289,4 +290,27 @@ fn more_legs_than_are_followed_are_an_error_of_its_own() {
     let SolveError::TooManySwitches { intervals, parts, .. } = &error else { panic!("{error}") };
     assert_eq!(*intervals, 200_000);
     assert_eq!(parts, "`ceiling`, `floor`");
+}
+
+#[test]
+fn an_interval_of_known_equations_is_the_same_and_mostly_without_another_decomposition() {
+    let exact = by_name("exact").unwrap();
+    let mut count = 0;
+    for problem in problems::all() {
+        let system = &problem.system;
+        let interval = |shared: &mut Shared| {
+            let run = Run { budget: Budget::of(u64::MAX), ..Run::to(problem.t_end) };
+            let found = exact.integrate_interval(system, &run, shared, &mut Silent).ok()?;
+            let work = run.budget.done();
+            Some((found.signal(system, 0), work))
+        };
+        let mut shared = Shared::default();
+        let Some((first, least)) = interval(&mut shared) else { continue };
+        let (other, work) = interval(&mut shared).unwrap();
+        assert_eq!(first, other, "{}", problem.name);
+        // Where the bounds of the first are none too good, other modes are looked for.
+        assert!(work <= least, "{}: {work} {least}", problem.name);
+        count += usize::from(work < least);
+    }
+    assert!(count > 5, "{count}");
 }

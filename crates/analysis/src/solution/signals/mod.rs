@@ -21,6 +21,8 @@ const MOST_BYTES: usize = 32 << 20;
 #[derive(Debug)]
 pub(super) struct Signals {
     cells: Vec<OnceCell<Arc<Signal>>>,
+    /// Slopes of outputs, and rates of them that are told better, where any was asked for.
+    derived: [OnceCell<Vec<OnceCell<Signal>>>; 2],
     /// The numbers of those at hand.
     filled: RefCell<Vec<usize>>,
     /// Memory that those at hand take \[B\].
@@ -34,9 +36,14 @@ pub(super) struct Signals {
 impl Signals {
     /// Room for those of so many outputs.
     pub(super) fn of(outputs: usize) -> Self {
-        let cells = (0..outputs).map(|_| OnceCell::new()).collect();
-        let filled = RefCell::default();
-        Self { cells, filled, bytes: Cell::new(0), panels: Cell::new(0), most: MOST_BYTES }
+        Self {
+            cells: (0..outputs).map(|_| OnceCell::new()).collect(),
+            derived: Default::default(),
+            filled: RefCell::default(),
+            bytes: Cell::new(0),
+            panels: Cell::new(0),
+            most: MOST_BYTES,
+        }
     }
 
     fn count(&self, signal: &Signal) {
@@ -86,6 +93,35 @@ impl Solution<'_> {
         Cow::Owned(signal)
     }
 
+    /// The slopes of an output, jumps left out.
+    pub(super) fn slopes(&self, output: usize) -> Cow<'_, Signal> {
+        self.derived(0, output, || self.glance(output).derivative())
+    }
+
+    /// The rate of an output as the trajectory tells it.
+    pub(super) fn told_rate(&self, output: usize) -> Cow<'_, Signal> {
+        self.derived(1, output, || self.trajectory.dense.rate(&self.assembly.system, output))
+    }
+
+    fn derived(
+        &self,
+        which: usize,
+        output: usize,
+        make: impl FnOnce() -> Signal,
+    ) -> Cow<'_, Signal> {
+        let signals = &self.known.signals;
+        let cells = || signals.cells.iter().map(|_| OnceCell::new()).collect();
+        let cell = &signals.derived[which].get_or_init(cells)[output];
+        if signals.bytes.get() > signals.most && cell.get().is_none() {
+            return Cow::Owned(make());
+        }
+        Cow::Borrowed(cell.get_or_init(|| {
+            let signal = make();
+            signals.bytes.set(signals.bytes.get() + bytes(&signal));
+            signal
+        }))
+    }
+
     /// The signal of an output that is the same sum, where there is one at hand.
     fn same_as(&self, output: usize) -> Option<Arc<Signal>> {
         // Each interval of a run that switches has equations of its own.
@@ -110,6 +146,7 @@ impl Solution<'_> {
             for at in signals.filled.get_mut().drain(..) {
                 signals.cells[at].take();
             }
+            signals.derived = Default::default();
             signals.bytes.set(0);
         }
     }

@@ -23,6 +23,8 @@ pub(crate) struct Found<const N: usize> {
     pub(crate) course: Course<N>,
     /// The largest relative difference from the solution before, in parts of the error that one [estimates by itself](Course::relative_error).
     pub(crate) ratio: f64,
+    /// The values of the solution before with what their errors are parts of, and what it estimates by itself.
+    pub(crate) before: (Vec<[f64; 2]>, f64),
     /// How many solutions there were besides.
     pub(crate) others: usize,
 }
@@ -55,7 +57,14 @@ pub(crate) fn with_bars<const N: usize>(
         let errors: Vec<f64> = differences().map(bar).collect();
         let values: Vec<f64> = own.iter().map(|[value, _]| *value).collect();
         if suffice(&values, &errors) {
-            return Some(Found { values, errors, course, ratio, others });
+            return Some(Found {
+                values,
+                errors,
+                course,
+                ratio,
+                before: (before, estimate),
+                others,
+            });
         }
         (before, estimate) = (own, own_error);
     }
