@@ -314,9 +314,10 @@ fn a_measured_pulse_costs_few_steps_a_corner_wherever_the_pad_lets_go() {
 }
 
 #[test]
-fn rows_of_noise_are_crossed_by_steps_as_long_as_without() {
-    for (rows, most) in [(600, 300), (2400, 300)] {
-        for gap in [0.0, 0.05] {
+fn rows_of_noise_are_crossed_by_steps() {
+    for rows in [600, 2400] {
+        // Without a gap the force is at first what the noise makes of it, row by row.
+        for (gap, most) in [(0.0, 2 * rows as usize), (0.05, 600)] {
             let scene = knee(rows, gap, 3.0);
             let own = run_at(&scene, "dop853", Some(1e-6));
             let steps = own.solver.statistics;
