@@ -327,17 +327,6 @@ fn rows_of_noise_are_crossed_by_steps() {
     }
 }
 
-#[test]
-fn a_pad_is_in_contact_from_when_its_record_begins() {
-    let scene = "[nodes]\nm = { mass = 0.3, velocity = 5 }\ns = { velocity = 5, acceleration = { table = { outside = \"zero\", \
-        points = [[0, 0], [0.02, 0], [0.03, -40], [0.04, -20], [0.05, 0]] } } }\n[elements]\npad = { between = [\"m\", \
-        \"s\"], kelvin-voigt = { spring = 4000, dashpot = 3 } }\n[run]\nduration = 0.1\n";
-    let [right, own] =
-        ["exact", "dop853"].map(|method| value(&run(scene, method), "pad.contact-time"));
-    assert!((own.0 - right.0).abs() <= own.1 + right.1, "{own:?}, {right:?}");
-    assert!(right.0 < 0.08, "{right:?}");
-}
-
 /// A mass on a soft pad, whose support is carried by a slight acceleration with a row every millisecond, and by rows from
 /// number `at` on that carry it away and back.
 fn carried(at: u32) -> String {

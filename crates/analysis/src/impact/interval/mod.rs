@@ -338,8 +338,9 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     let mut open: Option<(f64, f64)> = None;
     for panel in &force.panels {
         if !rests(panel) {
+            let size: f64 = panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum();
             let (start, most) = open.unwrap_or((panel.start, 0.0));
-            open = Some((start, most.max(size(panel))));
+            open = Some((start, most.max(size)));
         } else if panel.length() > 0.0
             && let Some((start, most)) = open.take()
             && most > floor
@@ -363,18 +364,9 @@ pub(crate) fn first_felt<'b>(
     jumps.iter().find(|jump| jump.impulse.abs() > SMALLEST_JUMP * size)
 }
 
-/// When a force that is zero at first begins to act \[s\], or one that is nothing but rounding for more than the part
-/// [`SLIGHT`] of the run: for less, one that grows from the start on as a power of time may be below it as well.
+/// When a force that is zero at first begins to act \[s\].
 fn first_load(force: &Signal) -> Option<f64> {
-    let start = pushes(force).first()?.start;
-    let quiet = force.panels.iter().take_while(|panel| size(panel) <= force.noise).last();
-    let rest = quiet.map(|last| last.end).filter(|end| *end > SLIGHT * force.end());
-    Some(rest.map_or(start, |end| start.max(end)))
-}
-
-/// A bound of the magnitude of the force over a panel.
-fn size(panel: &Panel) -> f64 {
-    panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum()
+    pushes(force).first().map(|push| push.start)
 }
 
 /// When the force comes to rest on zero after `start` \[s\], as it does where a contact opens.

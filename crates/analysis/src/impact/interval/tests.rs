@@ -73,12 +73,6 @@ fn ripples_and_slight_pulls_before_the_push_are_no_release() {
 }
 
 #[test]
-fn what_rounding_makes_of_a_rest_is_no_contact() {
-    let force = polygon(&[1e-14, -1e-14, 1e-14, 100.0, -5.0]);
-    assert_eq!(Impact::of_force(&force, 4.0, 0.0).start, 2.0);
-}
-
-#[test]
 fn light_touch_is_one_from_a_thousandth_of_the_largest_on() {
     let touch = |light: f64| {
         let force = polygon(&[0.0, light, 0.0, 0.0, 100.0, 0.0, 0.0]);
