@@ -3,7 +3,7 @@
 use dashpot_analysis::sweep::ScenePoint;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{
-    Diagnostic, Diagnostics, Posed, Tunables, pose,
+    Diagnostic, Diagnostics, Posed, Tunables,
     units::{parse_quantity, si_unit},
 };
 
@@ -90,9 +90,13 @@ pub(crate) fn unvaried(
     list(set.iter().filter(|own| !is_varied(&own.0)).cloned())
 }
 
-/// The scene of a text.
-pub(crate) fn posed(text: &str, input: &Input, set: &[(String, String)]) -> Result<Posed, String> {
-    pose(text, &input.options(set)).map_err(|own| messages(&own))
+/// A scene with these values in its text.
+pub(crate) fn posed(
+    (tunables, values): (&Tunables, &[(usize, String)]),
+    input: &Input,
+    set: &[(String, String)],
+) -> Result<Posed, String> {
+    tunables.posed(values, &input.options(set)).map_err(|own| messages(&own))
 }
 
 pub(crate) fn messages(faults: &Diagnostics) -> String {

@@ -25,7 +25,12 @@ pub fn is_arithmetic(text: &str, is_name: &dyn Fn(&str) -> bool) -> bool {
     if parse_quantity(text).is_ok() {
         // Unless a name stands where a unit could.
         let unsigned = text.trim_start_matches(['+', '-']);
-        return match number(unsigned).map(|length| quantity(unsigned, length, is_name)) {
+        let length = number(unsigned);
+        let unit = length.map_or("", |length| unsigned[length..].trim_start());
+        if unit.chars().all(char::is_alphabetic) {
+            return is_name(unit);
+        }
+        return match length.map(|length| quantity(unsigned, length, is_name)) {
             Some(Ok((_, end))) => unsigned[end..].trim_start().starts_with(['*', '·', '⋅']),
             found => found.is_some(),
         };

@@ -17,6 +17,7 @@ mod diagnostics;
 mod kinds;
 mod models;
 mod outline;
+mod posed;
 mod quantities;
 mod scene;
 mod schema;
@@ -34,13 +35,12 @@ pub use diagnostics::{Checked, Diagnostic, Diagnostics, Severity};
 pub use models::named::{NamedModel, read_models, read_named_model};
 pub use models::notes::{ModelNote, Remark, RestRemoved};
 pub use outline::{OutlineRow, outline};
+pub use posed::{Posed, pose};
 pub use quantities::bare::{BareNumber, BareNumbers};
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
 pub use quantities::words::with_units;
-pub use scene::{
-    Posed, ReadOptions, RunSettings, Scene, pose, read, read_bytes, read_network, text_of_bytes,
-};
+pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
 pub use schema::schema;
 pub use sections::{WISHING, Wish, parse_limits, wishes};
 pub use shipped::{Shipped, reference, references, template, templates};

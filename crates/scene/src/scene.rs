@@ -26,7 +26,7 @@ use crate::{
     },
     tables::{DataTable, table_text},
     text::{
-        document::{Entry, MAX_BYTES, parse},
+        document::{Entry, Item, MAX_BYTES, parse},
         library::{Library, Loader},
         source::{Place, Source, set_source},
         table::{text_of, unknown_key},
@@ -53,6 +53,9 @@ const SECTIONS: [&str; 15] = [
     "design",
     together::SECTION,
 ];
+
+/// What a text without a file is called.
+const UNNAMED: &str = "scene";
 
 /// The comment by which a text says that its numbers without a unit are meant in SI units, as programs write them.
 const BARE_ARE_SI: &str = "#:units SI";
@@ -112,38 +115,8 @@ impl Scene {
     }
 }
 
-/// What a run of a scene needs.
-#[derive(Debug, Clone)]
-pub struct Posed {
-    /// Nodes, elements, loads and effects.
-    pub network: Network,
-    /// How it is to be run.
-    pub run: RunSettings,
-    accuracy: Accuracy,
-    measures: Vec<MeasureWish>,
-    limits: Vec<Limit>,
-}
-
-impl Posed {
-    /// As [`Scene::settings`].
-    ///
-    /// # Errors
-    ///
-    /// [`RunError::UnknownMethod`].
-    pub fn settings(&self, method: &str) -> Result<SolveSettings, RunError> {
-        asked(&self.run, &self.accuracy, (&self.measures, &self.limits), method)
-    }
-
-    /// Whether it is the same to a solver as another scene: in its network, its run, and what is asked of that. Named
-    /// values, models and materials that nothing uses make no difference.
-    pub fn is_solved_as(&self, other: &Self) -> bool {
-        // What is printed of numbers tells them apart to the bit.
-        format!("{self:?}") == format!("{other:?}")
-    }
-}
-
 /// What a scene asks of a run by the method of this name.
-fn asked(
+pub(crate) fn asked(
     run: &RunSettings,
     accuracy: &Accuracy,
     (measures, limits): (&[MeasureWish], &[Limit]),
@@ -161,13 +134,6 @@ fn asked(
         measures: measures.to_vec(),
         limits: limits.to_vec(),
     })
-}
-
-impl From<Scene> for Posed {
-    fn from(scene: Scene) -> Self {
-        let Scene { network, run, accuracy, measures, limits, .. } = scene;
-        Self { network, run, accuracy, measures, limits }
-    }
 }
 
 /// How a text is to be read.
@@ -274,28 +240,6 @@ pub fn read_network(
     })
 }
 
-/// Reads what a run of a scene needs, and no more: the network need not compile, and nothing that is odd is looked
-/// for. For the many runs of a sweep, of whose scene one was [read](read()).
-///
-/// # Errors
-///
-/// All faults of the text, each with its place.
-pub fn pose(text: &str, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
-    let posed = checked(BareNumbers::Silent, |faults| {
-        let (library, _) = load(text, options, faults)?;
-        let Parts { reading, network, measures, limits, accuracy, .. } =
-            Parts::read(&library, faults);
-        let (run, stops) = read_run(&reading);
-        // Both are found in the compiled network.
-        let needs_more = run.at_most.is_some() || !stops.is_empty();
-        Some((!needs_more).then_some(Posed { network, run, accuracy, measures, limits }))
-    })?;
-    match posed.value {
-        Some(posed) => Ok(posed),
-        None => read(text, options).map(|scene| scene.value.into()),
-    }
-}
-
 /// What `read` returns, unless it notes an error.
 pub(crate) fn checked<T>(
     bare: BareNumbers,
@@ -318,25 +262,36 @@ pub(crate) fn load(
     options: &ReadOptions<'_>,
     faults: &Faults,
 ) -> Option<(Library, Arc<Source>)> {
-    let name = options.file.unwrap_or("scene");
-    let Settled { text: settled, named, astray } = Settled::new(text, options.set);
+    let name = options.file.unwrap_or(UNNAMED);
+    let (settled, set) = Settled::in_text(text, options.set);
     let shown = if settled == text { name.to_owned() } else { format!("{name}, as set") };
     let source = Arc::new(Source::new(shown, &*settled));
     if let Some(fault) = table_for_scene(&settled, name) {
         faults.error(Place::new(faults.add_source(source), &(0..0)), fault);
         return None;
     }
-    if settled.lines().any(|line| line.trim_end() == BARE_ARE_SI) {
+    let root = parse(&source, faults)?;
+    Some((library_of((root, &settled), set, options, faults), source))
+}
+
+/// The documents of a text that is parsed, and what is set besides.
+pub(crate) fn library_of(
+    (root, text): (Item, &str),
+    set: Settled,
+    options: &ReadOptions<'_>,
+    faults: &Faults,
+) -> Library {
+    if text.lines().any(|line| line.trim_end() == BARE_ARE_SI) {
         faults.allow_bare();
     }
-    let root = parse(&source, faults)?;
-    for (own, fault) in astray {
+    for (own, fault) in set.astray {
         let place = Place::new(faults.add_source(set_source(&own)), &(0..own.0.len()));
         let help = fault.help();
         faults.error(place, astray_fault(own.0, fault).with_any_help(help));
     }
-    let overrides = Overrides::new(&named, faults);
-    Some((Library::load(name, root, options.loader, &overrides, faults), source))
+    let overrides = Overrides::new(&set.named, faults);
+    let name = options.file.unwrap_or(UNNAMED);
+    Library::load(name, root, options.loader, &overrides, faults)
 }
 
 /// What is wrong with a text that is a table of numbers, as no scene is.
@@ -391,18 +346,18 @@ fn home_of(key: &str) -> Option<String> {
 }
 
 /// What a scene and a network have in common.
-struct Parts<'d> {
-    reading: Reading<'d>,
-    network: Network,
+pub(crate) struct Parts<'d> {
+    pub(crate) reading: Reading<'d>,
+    pub(crate) network: Network,
     title: Option<String>,
-    measures: Vec<MeasureWish>,
-    limits: Vec<Limit>,
-    accuracy: Accuracy,
+    pub(crate) measures: Vec<MeasureWish>,
+    pub(crate) limits: Vec<Limit>,
+    pub(crate) accuracy: Accuracy,
     notes: Vec<ModelNote>,
 }
 
 impl<'d> Parts<'d> {
-    fn read(library: &'d Library, faults: &'d Faults) -> Self {
+    pub(crate) fn read(library: &'d Library, faults: &'d Faults) -> Self {
         let is_stranger =
             |entry: &&Entry| !SECTIONS.contains(&entry.key.as_str()) && !faults.damaged();
         for entry in library.sections().iter().filter(is_stranger) {

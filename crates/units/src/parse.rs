@@ -178,6 +178,9 @@ pub fn parse_dimension(unit: &str) -> Result<Dimension, UnitError> {
 
 /// `number · 10^exponent`, rounded once.
 fn scaled(number: &str, exponent: i32) -> Option<f64> {
+    if exponent == 0 {
+        return number.parse().ok();
+    }
     let (mantissa, own) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     // An exponent beyond i32 is beyond double precision as well.
     let own = own.parse::<i32>().unwrap_or(if own.starts_with('-') { -9999 } else { 9999 });

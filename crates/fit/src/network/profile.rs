@@ -32,9 +32,9 @@ pub(super) struct Valley<'v, 't> {
     quantile: f64,
 }
 
-/// A problem with one unknown held.
+/// A problem with one number held.
 struct Held<'h> {
-    problem: &'h dyn Residuals,
+    problem: &'h Task<'h>,
     at: usize,
     value: f64,
     /// See [`Residuals::cost_change`].
@@ -63,7 +63,7 @@ impl Residuals for Held<'_> {
     }
 
     fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64> {
-        self.problem.jacobian(&self.whole(unknowns)).remove_column(self.at)
+        self.problem.slopes(&self.whole(unknowns), Some(self.at)).remove_column(self.at)
     }
 }
 

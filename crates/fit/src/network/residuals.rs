@@ -49,6 +49,8 @@ pub(super) struct Task<'t> {
     records: Vec<Record>,
     /// The last curves of each test.
     kept: RefCell<Vec<Kept>>,
+    /// Whether a minimum is looked for that is refined later: differences to one side lead there, too.
+    pub(super) is_sought: bool,
     watched: Option<&'t Watched<'t>>,
 }
 
@@ -85,6 +87,7 @@ impl<'t> Task<'t> {
             model,
             records: records.collect::<Result<_, _>>()?,
             kept: RefCell::new(tests.iter().map(|_| Kept::new()).collect()),
+            is_sought: false,
             watched: None,
         })
     }
@@ -368,15 +371,21 @@ impl<'t> Task<'t> {
         Ok(curve)
     }
 
-    /// Derivatives by a number, by differences within its bounds.
-    fn by_number(&self, at: usize, unknowns: &[f64]) -> Vec<f64> {
+    /// Derivatives by a number, by differences within its bounds: to both sides, or from where it is into the larger room.
+    fn by_number(&self, at: usize, unknowns: &[f64], is_one_sided: bool) -> Vec<f64> {
         let [low, high] = [self.numbers[at].low.ln(), self.numbers[at].high.ln()];
         let beside = |step: f64| {
             let mut own = unknowns.to_vec();
             own[at] = (own[at] + step).clamp(low, high);
             (own[at], self.left(&own))
         };
-        let ((low, before), (high, after)) = (beside(-STEP), beside(STEP));
+        let is_low = unknowns[at] - low < high - unknowns[at];
+        let steps = match (is_one_sided, is_low) {
+            (false, _) => [-STEP, STEP],
+            (true, true) => [0.0, STEP],
+            (true, false) => [-STEP, 0.0],
+        };
+        let [(low, before), (high, after)] = steps.map(beside);
         before.iter().zip(&after).map(|(one, other)| (other - one) / (high - low)).collect()
     }
 
@@ -429,6 +438,14 @@ impl Residuals for Task<'_> {
     }
 
     fn jacobian(&self, unknowns: &[f64]) -> DMatrix<f64> {
+        self.slopes(unknowns, None)
+    }
+}
+
+impl Task<'_> {
+    /// The derivatives of what is left, one column for each unknown. Where a number is held its column is zero. Of a
+    /// refit the sum alone is asked for: like a search it takes differences to one side, for half of the solutions.
+    pub(super) fn slopes(&self, unknowns: &[f64], held: Option<usize>) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(self.rows(), unknowns.len());
         let mut prior = self.measured();
         for (test, rows) in self.parts().enumerate() {
@@ -448,8 +465,9 @@ impl Residuals for Task<'_> {
             jacobian[(prior, at)] = self.records[test].length / jump.deviation;
             prior += 1;
         }
-        for at in 0..self.numbers.len() {
-            jacobian.column_mut(at).copy_from_slice(&self.by_number(at, unknowns));
+        for at in (0..self.numbers.len()).filter(|at| held != Some(*at)) {
+            let column = self.by_number(at, unknowns, self.is_sought || held.is_some());
+            jacobian.column_mut(at).copy_from_slice(&column);
         }
         jacobian
     }

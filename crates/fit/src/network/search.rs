@@ -195,6 +195,7 @@ fn spread(numbers: &[Number], count: usize, seed: u64) -> Vec<Vec<f64>> {
 pub(super) fn descended(task: &mut Task<'_>, start: &[f64]) -> Option<Optimum> {
     let [low, high] = task.bounds();
     let mut found = None;
+    task.is_sought = true;
     for parts in WINDOWS {
         let is_averaged = task.average(Some(parts));
         let from = found.as_ref().map_or(start, |own: &Optimum| own.unknowns.as_slice());
@@ -204,6 +205,7 @@ pub(super) fn descended(task: &mut Task<'_>, start: &[f64]) -> Option<Optimum> {
         }
     }
     task.average(None);
+    task.is_sought = false;
     found
 }
 

@@ -150,8 +150,8 @@ impl<'d> KindReader<'d> {
         if parameter.default.is_some() {
             return table.take(parameter.name);
         }
-        let value = self.example().value(std::slice::from_ref(parameter));
-        table.require(parameter.name, &format!("{} = {value}", parameter.name))
+        let value = || self.example().value(std::slice::from_ref(parameter));
+        table.require_with(parameter.name, || format!("{} = {}", parameter.name, value()))
     }
 
     /// A value that may depend on that of the parameter before it, as unloading does on loading.

@@ -67,7 +67,8 @@ impl KindReader<'_> {
             let largest = sizes(at).max_by(|first, other| first.0.abs().total_cmp(&other.0.abs()));
             if let Some((value, Item { value: Content::List(pair), .. })) = largest {
                 let dimension = self.quantities.basis.dimension(dimension);
-                self.quantities.warn(&pair[at], dimension, value);
+                let is_bare = self.quantities.is_bare(&pair[at]);
+                self.quantities.warn(&pair[at], is_bare, dimension, value);
             }
         }
     }

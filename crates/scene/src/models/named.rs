@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     check::network_faults::value_of,
-    diagnostics::{Checked, Diagnostic, Diagnostics, fault::Fault},
+    diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     quantities::bare::BareNumbers,
     scene::{ReadOptions, checked, load},
     sections::ELEMENT_KEYS,
@@ -47,6 +47,12 @@ pub struct NamedModel {
 enum Found<'d> {
     Model(crate::text::library::models::Reference),
     Element(&'d Entry),
+}
+
+impl Found<'_> {
+    fn is_material(&self) -> bool {
+        matches!(self, Self::Model(own) if own.section == ModelSection::Materials)
+    }
 }
 
 /// Reads the model that `name` means in a text: one of `[models]`, else of `[materials]`, else that of one of
@@ -86,29 +92,9 @@ pub fn read_named_model(
     checked(options.bare, |faults| {
         let (library, source) = load(text, options, faults)?;
         let models = ModelReader::new(&library, faults);
-        let (found, is_shared) = match find(&library, name) {
-            Ok(found) => found,
-            Err(fault) => {
-                faults.missing(None, fault);
-                return None;
-            }
-        };
-        let (entry, model) = match found {
-            Found::Model(reference) => (library.entry(reference), models.named(reference)?),
-            Found::Element(entry) => {
-                let owner = format!("element `{}`", entry.key);
-                if let Some(layers) = value_of(entry, "layers") {
-                    let message =
-                        format!("{owner} is made of layers with mass, which no model has");
-                    let help = "ask for one of its materials";
-                    faults.error(layers.place, Fault::odd(message, help));
-                    return None;
-                }
-                let keys = ELEMENT_KEYS;
-                (entry, models.element(&entry.item, owner, entry.key_place, keys)?.model)
-            }
-        };
-        let is_material = matches!(found, Found::Model(reference) if reference.section == ModelSection::Materials);
+        let (found, is_shared) = located(&library, name, faults)?;
+        let (entry, model) = read_found(&library, &models, &found, faults)?;
+        let is_material = found.is_material();
         let (name, mut notes, span) =
             (entry.key.to_string(), models.notes(), lines_of(&source, entry));
         notes.extend(library.table_notes());
@@ -126,6 +112,40 @@ pub fn read_named_model(
         };
         Some(NamedModel { name, model, section, is_material, notes, span })
     })
+}
+
+/// The model of this name in documents, and whether it is a material.
+pub(crate) fn model_in(library: &Library, name: &str, faults: &Faults) -> Option<(Model, bool)> {
+    let models = ModelReader::new(library, faults);
+    let (found, _) = located(library, name, faults)?;
+    Some((read_found(library, &models, &found, faults)?.1, found.is_material()))
+}
+
+/// Where a name leads, and whether models of several sections have it.
+fn located<'d>(library: &'d Library, name: &str, faults: &Faults) -> Option<(Found<'d>, bool)> {
+    find(library, name).map_err(|fault| faults.missing(None, fault)).ok()
+}
+
+/// What stands there.
+fn read_found<'d>(
+    library: &'d Library,
+    models: &ModelReader<'d>,
+    found: &Found<'d>,
+    faults: &Faults,
+) -> Option<(&'d Entry, Model)> {
+    let entry = match found {
+        Found::Model(reference) => {
+            return Some((library.entry(*reference), models.named(*reference)?));
+        }
+        Found::Element(entry) => *entry,
+    };
+    let owner = format!("element `{}`", entry.key);
+    if let Some(layers) = value_of(entry, "layers") {
+        let message = format!("{owner} is made of layers with mass, which no model has");
+        faults.error(layers.place, Fault::odd(message, "ask for one of its materials"));
+        return None;
+    }
+    Some((entry, models.element(&entry.item, owner, entry.key_place, ELEMENT_KEYS)?.model))
 }
 
 /// The sections of a text that has models and no scene.

@@ -161,7 +161,7 @@ impl<'d> Quantities<'d> {
         self.read_checked(item, expected, |_| Ok::<(), Fault>(()))
     }
 
-    fn read_quietly(self, item: &Item, expected: Dimension) -> Option<f64> {
+    fn read_quietly(self, item: &Item, expected: Dimension) -> Option<Quantity> {
         let in_model = expected;
         let expected = self.basis.dimension(in_model);
         let quantity = match &item.value {
@@ -209,10 +209,16 @@ impl<'d> Quantities<'d> {
         expected: Dimension,
         check: impl FnOnce(f64) -> Result<(), E>,
     ) -> Option<f64> {
-        let value = self.read_quietly(item, expected)?;
+        let quantity = self.read_quietly(item, expected)?;
+        let value = quantity.value;
         match check(value) {
             Ok(()) => {
-                self.warn(item, self.basis.dimension(expected), value);
+                self.warn(
+                    item,
+                    quantity.dimension.is_none(),
+                    self.basis.dimension(expected),
+                    value,
+                );
                 Some(value)
             }
             Err(fault) => {
@@ -224,13 +230,13 @@ impl<'d> Quantities<'d> {
 
     /// The difference of temperatures `item` \[K\]. Degrees Celsius are an error: they say a temperature.
     pub(crate) fn read_difference(self, item: &Item) -> Option<f64> {
-        let value = self.read_quietly(item, Dimension::TEMPERATURE)?;
-        if self.meant(item).is_some_and(|quantity| quantity.is_celsius) {
+        let quantity = self.read_quietly(item, Dimension::TEMPERATURE)?;
+        if quantity.is_celsius {
             let fault = Fault::CelsiusDifference { text: self.shown(item) };
             self.faults.error(item.place, self.traced(item, fault));
             return None;
         }
-        Some(value)
+        Some(quantity.value)
     }
 
     /// The quantity `item` as written, in SI units, where it is one of any dimension.
@@ -256,6 +262,7 @@ impl<'d> Quantities<'d> {
     pub(crate) fn shown(self, item: &Item) -> String {
         match &item.value {
             Content::Text(text) => text.trim().to_owned(),
+            Content::Number(digits) => digits.to_string(),
             _ => self.faults.text(item.place),
         }
     }
@@ -291,14 +298,14 @@ impl<'d> Quantities<'d> {
         arithmetic::told_with(fault, &names, self.values, self.faults)
     }
 
-    /// Warns of the value of `item`, in SI units, where it is unusual.
-    pub(crate) fn warn(self, item: &Item, dimension: Dimension, value: f64) {
+    /// Warns of the value of `item`, in SI units, where it is unusual; `is_bare` where it has no unit.
+    pub(crate) fn warn(self, item: &Item, is_bare: bool, dimension: Dimension, value: f64) {
         let key = match self.subject {
             Subject::Unwatched | Subject::Index => return,
             Subject::Key(key) | Subject::Angle(key) => key,
             Subject::Value => "",
         };
-        if !self.is_bare(item) {
+        if !is_bare {
             if let Some(fault) = plausible::slip(&self.written(item), dimension, value) {
                 self.faults.warning(item.place, self.traced(item, fault));
             }
@@ -407,14 +414,14 @@ impl<'d> Quantities<'d> {
         None
     }
 
-    fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<f64> {
+    fn checked(self, quantity: Quantity, item: &Item, in_model: Dimension) -> Option<Quantity> {
         let expected = self.basis.dimension(in_model);
         let is_index = matches!(self.subject, Subject::Index);
         let quantity = quantity.meant(if is_index { Dimension::ACCELERATION } else { expected });
         let found = quantity.dimension.unwrap_or(expected);
         let text = item.text().map_or("", str::trim);
         let is_named =
-            self.values.contains_key(text) || !text.is_empty() && parse_quantity(text).is_err();
+            || self.values.contains_key(text) || !text.is_empty() && parse_quantity(text).is_err();
         let shown = || self.shown(item);
         if found != expected {
             let told = if is_index { Dimension::NUMBER } else { expected };
@@ -422,7 +429,7 @@ impl<'d> Quantities<'d> {
             let fault = match found {
                 _ if is_index => fault.with_help(INDEX_HELP),
                 Dimension::ACCELERATION if self.is_motion => fault.with_help(MOTION_HELP),
-                Dimension::MASS if expected == Dimension::ACCELERATION && is_named => fault
+                Dimension::MASS if expected == Dimension::ACCELERATION && is_named() => fault
                     .with_help("in [values] and in arithmetic `g` is the gram: write `g0` there"),
                 Dimension::VELOCITY if self.is_motion => fault
                     .with_help("a motion is a displacement: write `velocity` in place of `motion`"),
@@ -457,7 +464,7 @@ impl<'d> Quantities<'d> {
         if is_bare && expected != Dimension::NUMBER && !is_index {
             self.without_unit(item, quantity.value, expected, false);
         }
-        Some(quantity.value)
+        Some(quantity)
     }
 }
 

@@ -49,9 +49,18 @@ impl<'d> Table<'d> {
 
     /// The entry of a key that is required; `example` shows how it is written.
     pub(crate) fn require(&self, key: &'static str, example: &str) -> Option<&'d Entry> {
+        self.require_with(key, || example.to_owned())
+    }
+
+    /// The same, where the example is made.
+    pub(crate) fn require_with(
+        &self,
+        key: &'static str,
+        example: impl FnOnce() -> String,
+    ) -> Option<&'d Entry> {
         let entry = self.take(key);
         if entry.is_none() {
-            self.missing.borrow_mut().push((key, example.to_owned()));
+            self.missing.borrow_mut().push((key, example()));
         }
         entry
     }

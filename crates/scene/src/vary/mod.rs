@@ -1,5 +1,6 @@
 //! The numbers and words of a scene that may have other values: set, or varied in sweeps.
 
+mod filled;
 pub(crate) mod listed;
 mod sample;
 pub(crate) mod scatter;

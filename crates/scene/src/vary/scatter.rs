@@ -11,6 +11,7 @@ use super::{
     variation::{Written, handy, number_text},
 };
 use crate::{
+    Posed, ReadOptions,
     diagnostics::Diagnostics,
     quantities::scatter::Scatter,
     units::{Quantity, parse_quantity},
@@ -189,8 +190,8 @@ impl Sample {
     /// position among those with scatter, and on nothing else; what another scene of the same design has drawn as
     /// well, by the same path, is drawn as there. Numbers that scatter together are `x exp(Σ sᵢ zᵢ)` with
     /// their shares `sᵢ` of independent causes, `zᵢ` from such a hypercube of normal distributions; a cause is that of
-    /// the other scene in the same place if they have a number in common. `change` tells what a text with another value of one of
-    /// them is to the scene. A number that changes nothing is not drawn, and does not count; where the outermost
+    /// the other scene in the same place if they have a number in common. `change` tells what another value of one of
+    /// them, in its text, is to the scene. A number that changes nothing is not drawn, and does not count; where the outermost
     /// values are refused, the distribution is cut off at the first of them. `None` where no number has scatter.
     ///
     /// Source: M. D. `McKay`, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245.
@@ -202,16 +203,15 @@ impl Sample {
         text: &str,
         count: usize,
         seed: u64,
-        change: &dyn Fn(&str) -> Change,
+        change: &dyn Fn(&Tunables, (usize, String)) -> Change,
         beside: Option<&Self>,
     ) -> Result<Option<Self>, Diagnostics> {
         if !is_possible(text) {
             return Ok(None);
         }
         let tunables = Tunables::of(text, None)?;
-        let changed = |at: usize, value: f64, unit: &str| {
-            change(&tunables.text_with(&[(at, number_text(value, unit))]))
-        };
+        let changed =
+            |at: usize, value: f64, unit: &str| change(&tunables, (at, number_text(value, unit)));
         let is_used = |at: usize, sides: [f64; 2], unit: &str| {
             let mut read = sides.into_iter().map(|value| changed(at, value, unit));
             read.find(|own| *own != Change::Refused) != Some(Change::Nothing)
@@ -275,10 +275,14 @@ impl Sample {
         &self.drawn
     }
 
-    /// The text of the scene in a design, counted from 0.
-    pub fn text(&self, design: usize) -> String {
+    /// What a run of the scene needs in a design, counted from 0.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the scene there.
+    pub fn posed(&self, design: usize, options: &ReadOptions<'_>) -> Result<Posed, Diagnostics> {
         let value = |own: &Drawn| (own.at, number_text(own.values[design], &own.unit));
-        self.tunables.text_with(&self.drawn.iter().map(value).collect::<Vec<_>>())
+        self.tunables.posed(&self.drawn.iter().map(value).collect::<Vec<_>>(), options)
     }
 }
 
@@ -368,7 +372,9 @@ mod tests {
         "[values]\nK = \"20 ± 2 MN/m\"\n[nodes]\nhead = { mass = \"5 kg ± 10 %\" }\n";
 
     fn sample(text: &str, count: usize, accepts: &dyn Fn(&str) -> bool) -> Sample {
-        let change = |text: &str| if accepts(text) { Change::Some } else { Change::Refused };
+        let change = |tunables: &Tunables, value: (usize, String)| {
+            if accepts(&tunables.text_with(&[value])) { Change::Some } else { Change::Refused }
+        };
         Sample::of(text, count, 1, &change, None).unwrap().unwrap()
     }
 
@@ -404,7 +410,7 @@ mod tests {
             )
         };
         let of = |name: &str, beside: Option<&Sample>| {
-            Sample::of(&text(name), 50, 1, &|_| Change::Some, beside).unwrap().unwrap()
+            Sample::of(&text(name), 50, 1, &|_, _| Change::Some, beside).unwrap().unwrap()
         };
         let values = |own: &Sample| -> Vec<String> {
             own.drawn()[0].values.iter().map(f64::to_string).collect()
@@ -429,7 +435,7 @@ mod tests {
         assert!((drawn.cut[1].unwrap() - 10.125).abs() < 4e-6, "{:?}", drawn.cut);
         let [low, high] = [-1.25, 5.125 / 4.0].map(distribution);
         assert!((drawn.beyond - (low + 1.0 - high)).abs() < 1e-6);
-        let values: Vec<f64> = (0..1000).map(|design| mass(&own.text(design))).collect();
+        let values = &drawn.values;
         assert!(values.iter().all(|own| (0.0..10.126).contains(own)));
         // The median of what is left.
         let below = values.iter().filter(|own| **own < 5.0 + 4.0 * quantile(0.5 * (low + high)));
@@ -439,26 +445,26 @@ mod tests {
     #[test]
     fn a_number_that_changes_nothing_is_not_drawn_and_moves_no_other() {
         let with = TEXT.replace("K =", "L = \"3 ± 1 mm\"\nK =");
-        let is_other = |text: &str| {
-            if text.contains("L = \"3 ± 1 mm\"") { Change::Some } else { Change::Nothing }
+        let is_other = |_: &Tunables, (at, _): (usize, String)| {
+            if at == 0 { Change::Nothing } else { Change::Some }
         };
         let values =
             |own: &Sample| own.drawn().iter().map(|own| own.values.clone()).collect::<Vec<_>>();
         let own = Sample::of(&with, 20, 1, &is_other, None).unwrap().unwrap();
         assert_eq!(values(&own), values(&sample(TEXT, 20, &|_| true)));
-        assert!(Sample::of(TEXT, 20, 1, &|_| Change::Nothing, None).unwrap().is_none());
+        assert!(Sample::of(TEXT, 20, 1, &|_, _| Change::Nothing, None).unwrap().is_none());
     }
 
     #[test]
     fn a_seed_repeats_and_a_scene_without_scatter_has_no_sample() {
-        let texts = |seed: u64| {
-            let own = Sample::of(TEXT, 20, seed, &|_| Change::Some, None).unwrap().unwrap();
-            (0..20).map(|at| own.text(at)).collect::<Vec<_>>()
+        let values = |seed: u64| {
+            let own = Sample::of(TEXT, 20, seed, &|_, _| Change::Some, None).unwrap().unwrap();
+            own.drawn.into_iter().map(|own| own.values).collect::<Vec<_>>()
         };
-        assert_eq!(texts(1), texts(1));
-        assert_ne!(texts(1), texts(2));
+        assert_eq!(values(1), values(1));
+        assert_ne!(values(1), values(2));
         for text in ["[values]\nK = \"20 MN/m\"\n", "[values]\nK = \"20 ± 0 MN/m\"\n"] {
-            assert!(Sample::of(text, 20, 1, &|_| Change::Some, None).unwrap().is_none());
+            assert!(Sample::of(text, 20, 1, &|_, _| Change::Some, None).unwrap().is_none());
         }
     }
 
@@ -492,7 +498,7 @@ mod tests {
     fn a_number_of_two_scenes_is_drawn_as_in_the_first() {
         let first = sample(TEXT, 20, &|_| true);
         let other = "[values]\nL = \"3 ± 1 mm\"\nK = \"20 ± 2 MN/m\"\n";
-        let own = Sample::of(other, 20, 1, &|_| Change::Some, Some(&first)).unwrap().unwrap();
+        let own = Sample::of(other, 20, 1, &|_, _| Change::Some, Some(&first)).unwrap().unwrap();
         assert_eq!(own.drawn[1].values, first.drawn[0].values);
         assert!(own.drawn[0].stream == 2 && own.drawn[0].values != first.drawn[0].values);
     }

@@ -12,67 +12,80 @@ use crate::{
     text::{document::parse, source::Source},
 };
 
-/// A text with what is set in it.
-pub(crate) struct Settled<'t> {
-    /// With what was set by a path.
-    pub(crate) text: Cow<'t, str>,
-    /// The rest of what was set: names under `[values]`.
+/// What is set, a name or path and its text each.
+type Set = [(String, String)];
+
+/// What is set, by where it belongs.
+#[derive(Debug, Default)]
+pub(crate) struct Settled {
+    /// Numbers and words of the text, and what stands in their places.
+    pub(crate) changes: Vec<(usize, String)>,
+    /// Names under `[values]`.
     pub(crate) named: Vec<(String, String)>,
     /// What leads to nothing, as it was set, and why.
     pub(crate) astray: Vec<((String, String), TunableFault)>,
 }
 
-impl<'t> Settled<'t> {
+impl Settled {
     /// Sets numbers and words in the text: `head.mass`, `liner.material`. A name under `[values]` is no
     /// path, and neither is one without a point that nothing in the text has.
-    pub(crate) fn new(text: &'t str, set: &[(String, String)]) -> Self {
-        let text = Cow::Borrowed(text);
-        let mut own = Self { text, named: set.to_vec(), astray: Vec::new() };
-        let is_scattered = |text: &str| Scatter::is_possible(text);
-        let has_scatter = is_scattered(&own.text)
-            || together::is_possible(&own.text)
-            || set.iter().any(|own| is_scattered(&own.1));
+    pub(crate) fn in_text<'t>(text: &'t str, set: &Set) -> (Cow<'t, str>, Self) {
+        let own = || Self { named: set.to_vec(), ..Self::default() };
         // Whether names under [values] are set without a unit is looked at where these are read.
-        if set.is_empty() || !has_scatter && all_are_named(&own.text, set) {
-            return own;
+        if set.is_empty() || !has_scatter(text, set) && all_are_named(text, set) {
+            return (Cow::Borrowed(text), own());
         }
         // What is wrong with the text is told where it is read.
-        let Ok(tunables) = Tunables::of(&own.text, None) else { return own };
-        let mut changes: Vec<(usize, String)> = Vec::new();
-        own.named.retain(|(name, value)| {
+        let Ok(tunables) = Tunables::of(text, None) else { return (Cow::Borrowed(text), own()) };
+        let own = Self::of(&tunables, text, set);
+        if own.changes.is_empty() {
+            return (Cow::Borrowed(text), own);
+        }
+        (Cow::Owned(tunables.text_with(&own.changes)), own)
+    }
+
+    /// Finds where it belongs in a scene of this text.
+    pub(crate) fn of(tunables: &Tunables, text: &str, set: &Set) -> Self {
+        let mut own = Self::default();
+        if set.is_empty() {
+            return own;
+        }
+        let has_scatter = has_scatter(text, set);
+        for (name, value) in set {
+            let given = || (name.clone(), value.clone());
             match tunables.anything(name) {
                 Ok(at) => {
                     if let Some(bare) = BareNumber::of_set(name, value, tunables.written(at)) {
-                        let fault = TunableFault::NoUnit(bare);
-                        own.astray.push(((name.clone(), value.clone()), fault));
-                        return false;
+                        own.astray.push((given(), TunableFault::NoUnit(bare)));
+                        continue;
                     }
                     let is_value = tunables.all()[at].path == format!("values.{name}");
-                    if is_value && !has_scatter {
-                        return true;
+                    if !is_value || has_scatter {
+                        // The last one counts.
+                        own.changes.retain(|known| known.0 != at);
+                        own.changes.push((at, value.trim().to_owned()));
                     }
-                    // The last one counts.
-                    changes.retain(|known| known.0 != at);
-                    changes.push((at, value.trim().to_owned()));
                     // Values of other files go by the name, too.
-                    return is_value && !is_scattered(value);
+                    if is_value && !(has_scatter && Scatter::is_possible(value)) {
+                        own.named.push(given());
+                    }
                 }
-                Err(fault) if name.contains('.') => {
-                    own.astray.push(((name.clone(), value.clone()), fault));
-                }
-                Err(_) => return true,
+                Err(fault) if name.contains('.') => own.astray.push((given(), fault)),
+                Err(_) => own.named.push(given()),
             }
-            false
-        });
-        if !changes.is_empty() {
-            own.text = Cow::Owned(tunables.text_with(&changes));
         }
         own
     }
 }
 
+fn has_scatter(text: &str, set: &Set) -> bool {
+    Scatter::is_possible(text)
+        || together::is_possible(text)
+        || set.iter().any(|own| Scatter::is_possible(&own.1))
+}
+
 /// Whether all of `set` are names under `[values]`.
-fn all_are_named(text: &str, set: &[(String, String)]) -> bool {
+fn all_are_named(text: &str, set: &Set) -> bool {
     let root = parse(&Source::new("", text).into(), &Faults::default());
     let sections = root.as_ref().and_then(|root| root.table()).unwrap_or(&[]);
     let values = sections.iter().find(|own| own.key == "values");

@@ -7,7 +7,7 @@ use toml_edit::{
 
 use crate::text::library::{
     models::MODEL_SECTIONS,
-    tables::{FILE, words_of_points},
+    tables::{FILE, WORDS_OF_POINTS},
 };
 
 /// The text where each path in `table-spring = "path"`, `file = "path"`, `model = "path:name"` and `material =
@@ -24,7 +24,8 @@ use crate::text::library::{
 /// ```
 pub fn with_paths(text: &str, renamed: &dyn Fn(&str) -> Option<String>) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
-    let mut paths = Paths { renamed, words: words_of_points().into_iter().chain([FILE]).collect() };
+    let mut paths =
+        Paths { renamed, words: WORDS_OF_POINTS.iter().copied().chain([FILE]).collect() };
     paths.visit_document_mut(&mut document);
     document.to_string()
 }

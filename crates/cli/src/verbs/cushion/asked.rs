@@ -89,7 +89,7 @@ impl Wanted {
         Box::new(move |thickness: f64| {
             let value = format!("{thickness:e} {}", si_unit(Dimension::LENGTH));
             let values = list(self.thickness.map(|at| (at, value)));
-            point(posed(&self.tunables.text_with(&values), input, set)?, method)
+            point(posed((&self.tunables, &values), input, set)?, method)
         })
     }
 

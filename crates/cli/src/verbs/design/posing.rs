@@ -48,14 +48,7 @@ pub(super) struct Posing<'a> {
 }
 
 impl Posing<'_> {
-    /// The text of a scene with a choice and these numbers in SI units, to the bit.
-    fn text(&self, scene: &TestScene, choice: &Choice, values: &[f64]) -> String {
-        let numbers = self.asked.numbers.iter().zip(values);
-        let numbers = numbers.map(|(own, value)| own.exact(*value));
-        scene.text(list(numbers), self.asked, choice)
-    }
-
-    /// The same for people, with the scatter that a number has.
+    /// The text of a scene with a choice and these numbers in SI units, for people, with the scatter that a number has.
     pub(super) fn written(&self, scene: &TestScene, choice: &Choice, values: &[f64]) -> String {
         let numbers = self.asked.numbers.iter().zip(values).enumerate();
         let numbers = numbers.map(|(at, (own, value))| {
@@ -64,7 +57,7 @@ impl Posing<'_> {
                 .and_then(|at| with_scatter((&scene.scene, &scene.tunables), (own, at), *value));
             scattered.unwrap_or_else(|| own.written(*value))
         });
-        scene.text(list(numbers), self.asked, choice)
+        scene.tunables.text_with(&scene.values(list(numbers), self.asked, choice))
     }
 
     /// Shows how far a search may have come with one more scene. Errors: it is to end.
@@ -109,7 +102,11 @@ impl Posing<'_> {
         let (set, scene) = (self.set_for(test), self.scene(test));
         Box::new(move |values: &[f64]| {
             self.show()?;
-            let posed = posed(&self.text(scene, choice, values), &scene.input, &set);
+            // To the bit.
+            let numbers = self.asked.numbers.iter().zip(values);
+            let numbers = list(numbers.map(|(own, value)| own.exact(*value)));
+            let values = scene.values(numbers, self.asked, choice);
+            let posed = posed((&scene.tunables, &values), &scene.input, &set);
             let point = posed.and_then(|own| point(own, self.method));
             let of_test = |fault| match &*test.name {
                 "" => fault,

@@ -173,13 +173,18 @@ impl TestScene {
         self.numbers.get(number).copied()
     }
 
-    /// Its text where numbers are written like this, number by number, and a choice is taken.
-    pub(super) fn text(&self, numbers: Vec<String>, asked: &Asked, choice: &[usize]) -> String {
+    /// What stands in its text where numbers are written like this, number by number, and a choice is taken.
+    pub(super) fn values(
+        &self,
+        numbers: Vec<String>,
+        asked: &Asked,
+        choice: &[usize],
+    ) -> Vec<(usize, String)> {
         let numbers = self.numbers.iter().copied().zip(numbers);
         let chosen = asked.among.iter().zip(choice).zip(&self.among);
         let chosen =
             chosen.flat_map(|((own, at), places)| places.iter().copied().zip(own.written(*at)));
-        self.tunables.text_with(&list(numbers.chain(chosen)))
+        list(numbers.chain(chosen))
     }
 
     /// What is set, by the command or a test, stands above what is sought: it cannot be both.

@@ -105,7 +105,7 @@ impl Alone {
         values: &[f64],
         is_judged: bool,
     ) -> Result<Box<dyn Curve>, String> {
-        let model = poser.model(&self.name, values)?.model;
+        let (model, _) = poser.model(&self.name, values)?;
         let drive = match self.kind {
             Kind::Stress => Some(Drive::Deformation),
             Kind::Strain => Some(Drive::Force),

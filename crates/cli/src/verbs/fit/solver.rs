@@ -12,8 +12,9 @@ use dashpot_analysis::{
 };
 use dashpot_dae::Silent;
 use dashpot_fit::network::Curve;
+use dashpot_network::Model;
 use dashpot_plot::Of;
-use dashpot_scene::{NamedModel, Posed, Tunables, read_named_model};
+use dashpot_scene::{Posed, Tunables};
 
 use super::{among::Replaced, target::Compared};
 use crate::{
@@ -47,25 +48,32 @@ pub(super) struct Poser<'s> {
 }
 
 impl Poser<'_> {
-    /// The text of the scene where the numbers have these values in SI units.
-    fn text(&self, values: &[f64]) -> Solved<String> {
+    /// What stands in the scene where the numbers have these values in SI units; its text, where a model in it is
+    /// another one.
+    fn written(&self, values: &[f64]) -> Solved<(Vec<(usize, String)>, Option<Tunables>)> {
         let each = || self.numbers.iter().zip(values);
         let texts = each().filter_map(|(own, value)| Some((own.at?, own.exact(*value))));
-        let text = self.tunables.text_with(&list(texts));
-        let Some(replaced) = self.replaced else { return Ok(text) };
+        let texts = list(texts);
+        let Some(replaced) = self.replaced else { return Ok((texts, None)) };
         let constants = each().filter(|own| own.0.at.is_none()).map(|own| *own.1);
-        replaced.text(&text, &list(constants), "").map_err(|own| own.to_string())
+        let text = replaced.text(&self.tunables.text_with(&texts), &list(constants), "");
+        let text = text.map_err(|own| own.to_string())?;
+        let other = Tunables::of(&text, Some(&self.input.file)).map_err(|own| messages(&own))?;
+        Ok((Vec::new(), Some(other)))
     }
 
     /// The scene there.
     pub(super) fn posed(&self, values: &[f64]) -> Solved<Posed> {
-        posed(&self.text(values)?, self.input, &self.set)
+        let (values, other) = self.written(values)?;
+        posed((other.as_ref().unwrap_or(self.tunables), &values), self.input, &self.set)
     }
 
-    /// One of its models there.
-    pub(super) fn model(&self, name: &str, values: &[f64]) -> Solved<NamedModel> {
-        let model = read_named_model(&self.text(values)?, name, &self.input.options(&self.set));
-        model.map(|own| own.value).map_err(|own| messages(&own))
+    /// One of its models there, and whether it is a material.
+    pub(super) fn model(&self, name: &str, values: &[f64]) -> Solved<(Model, bool)> {
+        let (values, other) = self.written(values)?;
+        let tunables = other.as_ref().unwrap_or(self.tunables);
+        let model = tunables.model(&values, name, &self.input.options(&self.set));
+        model.map_err(|own| messages(&own))
     }
 
     /// The same with what is asked of a run of which differences are taken.

@@ -121,11 +121,11 @@ pub(super) fn check_alone(
 ) -> Result<(), CliError> {
     let Compared::Alone(own) = output else { return Ok(()) };
     let wrong = |reason: String| asked.wrong(reason);
-    let model = poser.model(own.name(), values).map_err(wrong)?;
-    if model.is_material == own.is_material() {
+    let (_, is_material) = poser.model(own.name(), values).map_err(wrong)?;
+    if is_material == own.is_material() {
         return Ok(());
     }
-    Err(wrong(if model.is_material {
+    Err(wrong(if is_material {
         format!(
             "`{}` is a material: stress, strain and moduli in Pa are wanted, where these are force, deformation or \
              stiffness",

@@ -9,7 +9,7 @@ use dashpot_analysis::{
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch, columns, sweep},
 };
 use dashpot_plot::Table;
-use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, pose, read, units::si_unit};
+use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, Tunables, units::si_unit};
 use dashpot_units::percent;
 
 use super::{
@@ -82,11 +82,13 @@ pub(crate) fn drawn(
         return Ok(None);
     }
     let own = Posed::from(scene.clone());
-    let change = |text: &str| match pose(text, &options(scene, plain)) {
-        Ok(other) if other.is_solved_as(&own) => Change::Nothing,
-        Ok(_) => Change::Some,
-        Err(_) => Change::Refused,
-    };
+    let options = options(scene, plain);
+    let change =
+        |tunables: &Tunables, value: (usize, String)| match tunables.posed(&[value], &options) {
+            Ok(other) if other.is_solved_as(&own) => Change::Nothing,
+            Ok(_) => Change::Some,
+            Err(_) => Change::Refused,
+        };
     let ScatterArguments { sample, seed } = arguments;
     Sample::of(&scene.text, sample, seed, &change, beside).map_err(CliError::Scene)
 }
@@ -112,7 +114,7 @@ pub(crate) fn solved(
     (settings, plain): (&SolveSettings, &[(String, String)]),
     watch: &mut Watch<'_>,
 ) -> Result<Option<ScatterReport>, RunError> {
-    let columns = match columns(&point(scene.clone(), settings), &[]) {
+    let columns = match columns(&point(scene.clone().into(), settings), &[]) {
         Ok((columns, _)) => columns.into_iter().filter(|own| !own.is_share).collect::<Vec<_>>(),
         Err(SweepError::Run(error)) => return Err(error),
         Err(_) => return Ok(None),
@@ -136,13 +138,13 @@ pub(crate) fn design(
     at: usize,
     (settings, plain): (&SolveSettings, &[(String, String)]),
 ) -> Result<ScenePoint, String> {
-    let checked = read(&sample.text(at), &options(scene, plain)).map_err(|own| messages(&own))?;
-    Ok(point(checked.value, settings))
+    let posed = sample.posed(at, &options(scene, plain)).map_err(|own| messages(&own))?;
+    Ok(point(posed, settings))
 }
 
-fn point(scene: Scene, settings: &SolveSettings) -> ScenePoint {
-    let settings = SolveSettings { duration: scene.run.duration, ..settings.clone() };
-    ScenePoint { network: scene.network, settings }
+fn point(posed: Posed, settings: &SolveSettings) -> ScenePoint {
+    let settings = SolveSettings { duration: posed.run.duration, ..settings.clone() };
+    ScenePoint { network: posed.network, settings }
 }
 
 /// A number that was drawn, in SI units.

@@ -34,7 +34,8 @@ const BARE: &str = "SI unit";
 const MOST_DIGITS: usize = 5;
 
 /// Poses the scene of a text.
-type PoseText<'p> = dyn Fn(&str) -> Result<ScenePoint, String> + Sync + 'p;
+type PoseValues<'p> =
+    dyn Fn(&Tunables, &[(usize, String)]) -> Result<ScenePoint, String> + Sync + 'p;
 
 /// What was varied, and what was found at each point.
 struct Gradients {
@@ -51,7 +52,7 @@ pub(super) fn gradient(
     arguments: &SweepArguments,
     (scene, varied, grid): (Scene, Varied, Grid),
     keys: &[String],
-    pose: &PoseText<'_>,
+    pose: &PoseValues<'_>,
     folder: Option<Folder>,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
@@ -95,7 +96,7 @@ fn at_point(
     (scene, places): (&Scene, &[usize]),
     keys: &[String],
     threads: usize,
-    pose: &PoseText<'_>,
+    pose: &PoseValues<'_>,
 ) -> Result<GradientReport, CliError> {
     let tunables = Tunables::of(text, scene.file.as_deref()).map_err(CliError::Scene)?;
     let numbers = list(places.iter().map(|&at| {
@@ -113,7 +114,7 @@ fn at_point(
     };
     let report = gradients(&numbers, keys, threads, &|values| {
         let written = numbers.iter().zip(values).map(written);
-        pose(&tunables.text_with(&list(places.iter().copied().zip(written))))
+        pose(&tunables, &list(places.iter().copied().zip(written)))
     })?;
     Ok(report)
 }

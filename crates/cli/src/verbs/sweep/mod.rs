@@ -27,7 +27,8 @@ use dashpot_analysis::{
     },
 };
 use dashpot_scene::{
-    BareNumbers, Checked, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, Variation, read,
+    BareNumbers, Checked, Diagnostic, Diagnostics, Posed, ReadOptions, Scene, Tunables, Variation,
+    read,
 };
 use serde::Serialize;
 
@@ -98,10 +99,11 @@ fn solved_or_merged(
     if let Some(own) = stored.iter().flatten().find(|own| own.sweep != hash) {
         return Err(own.fault(ShardFault::Changed));
     }
-    let of_text =
-        |text: &str| scene_point(posed(text, &input, &set)?).map_err(|error| error.to_string());
+    let of_values = |tunables: &Tunables, values: &[(usize, String)]| {
+        scene_point(posed((tunables, values), &input, &set)?).map_err(|error| error.to_string())
+    };
     let at = |places: &[usize]| {
-        let mut scene_point = of_text(&varied.text_at(places))?;
+        let mut scene_point = of_values(&varied.tunables, &varied.written_at(places))?;
         scene_point.settings.measures.clone_from(&wishes);
         Ok(scene_point)
     };
@@ -128,7 +130,7 @@ fn solved_or_merged(
     terminal.diagnose(&of_ends(of, (&input, &set), known)?);
     if !arguments.gradient.is_empty() {
         let of = (scene, varied, grid);
-        return gradient::gradient(arguments, of, &keys, &of_text, folder, terminal);
+        return gradient::gradient(arguments, of, &keys, &of_values, folder, terminal);
     }
     let found = found((arguments, estimates, stored), (&grid, &at, &columns), terminal)?;
     let OutputArguments { json, table, .. } = arguments.output;

@@ -154,12 +154,15 @@ impl Varied {
         points
     }
 
-    /// The text of the scene at a point of the grid.
-    pub(super) fn text_at(&self, of_grid: &[usize]) -> String {
+    /// What stands in the scene at a point of the grid.
+    pub(super) fn written_at(&self, of_grid: &[usize]) -> Vec<(usize, String)> {
         let all = self.matched.iter().zip(&self.variations).zip(self.places(of_grid));
-        let values: Vec<(usize, String)> =
-            all.filter_map(|((at, own), place)| Some(((*at)?, own.text(place)))).collect();
-        self.tunables.text_with(&values)
+        all.filter_map(|((at, own), place)| Some(((*at)?, own.text(place)))).collect()
+    }
+
+    /// Its text there.
+    pub(super) fn text_at(&self, of_grid: &[usize]) -> String {
+        self.tunables.text_with(&self.written_at(of_grid))
     }
 
     /// Whether what is set by this name is among what varies.

@@ -4,7 +4,7 @@ use std::{
     cell::RefCell,
     collections::{HashSet, VecDeque},
     ops::Range,
-    sync::Arc,
+    sync::{Arc, LazyLock},
 };
 
 use dashpot_network::{
@@ -140,7 +140,6 @@ impl Library {
 
     /// The paths in `table-spring = "path"` and `table-spring = { file = "path" }` anywhere in a document.
     fn tables_wanted(&self) -> Vec<String> {
-        let words = words_of_points();
         let mut wanted = Vec::new();
         for document in &self.documents {
             let mut queue = VecDeque::from([&document.root]);
@@ -149,8 +148,8 @@ impl Library {
                     queue.extend(items.iter().filter(|own| own.table().is_some()));
                 }
                 for entry in item.table().unwrap_or(&[]) {
-                    let is_file = entry.key == FILE || words.contains(&entry.key.as_str());
-                    match entry.item.text().filter(|_| is_file) {
+                    let is_file = || entry.key == FILE || WORDS_OF_POINTS.contains(&*entry.key);
+                    match entry.item.text().filter(|_| is_file()) {
                         Some(path) => wanted.push(beside(&document.path, path)),
                         None => queue.push_back(&entry.item),
                     }
@@ -168,7 +167,7 @@ pub(crate) fn is_table(word: &str) -> bool {
 
 /// The words after which a text is the name of a file of points: those of kinds that take points alone, and those
 /// of their parameters.
-pub(crate) fn words_of_points() -> HashSet<&'static str> {
+pub(crate) static WORDS_OF_POINTS: LazyLock<HashSet<&'static str>> = LazyLock::new(|| {
     let waveforms = WAVEFORMS.iter().map(|kind| (kind.word, kind.parameters));
     let elements = ELEMENTS.iter().map(|kind| (kind.word, kind.parameters));
     let composites = COMPOSITES.iter().map(|kind| (kind.word, kind.parameters));
@@ -181,7 +180,7 @@ pub(crate) fn words_of_points() -> HashSet<&'static str> {
         }
     }
     words
-}
+});
 
 /// Whether points are given by `item` as a file.
 pub(crate) fn names_file(item: &Item) -> bool {

@@ -60,7 +60,9 @@ pub struct Tunable {
 /// The numbers of a scene's text, and its words.
 #[derive(Debug, Clone)]
 pub struct Tunables {
-    text: Arc<str>,
+    source: Arc<Source>,
+    /// The text, parsed; numbers with scatter are their means.
+    root: Arc<Item>,
     all: Vec<Tunable>,
     /// Every path, the alternative ones included, and the number or word that it leads to.
     paths: Vec<(Vec<String>, usize)>,
@@ -101,7 +103,7 @@ impl Tunables {
                 own.for_each(|own| collect(&own.item, &mut path(), &mut found));
             }
         }
-        let mut own = Self::with(Arc::clone(&source.text), found);
+        let mut own = Self::with((source, Arc::new(root)), found);
         for (place, scatter) in scattered {
             let number = own.all.iter_mut().find(|number| number.span == place.span());
             number.into_iter().for_each(|number| number.scatter = Some(scatter.clone()));
@@ -109,8 +111,8 @@ impl Tunables {
         Ok(own)
     }
 
-    fn with(text: Arc<str>, found: Found) -> Self {
-        let mut own = Self { text, all: Vec::new(), paths: Vec::new() };
+    fn with((source, root): (Arc<Source>, Arc<Item>), found: Found) -> Self {
+        let mut own = Self { source, root, all: Vec::new(), paths: Vec::new() };
         let add = |own: &mut Self, path: Vec<String>, span, (value, dimension), unit, word| {
             own.paths.push((path.clone(), own.all.len()));
             let (path, name, scatter) = (path.join("."), String::new(), None);
@@ -279,7 +281,22 @@ impl Tunables {
     /// A number or a word as the scene has it, and its unit.
     pub(crate) fn written(&self, at: usize) -> (&str, &str) {
         let own = &self.all[at];
-        (self.text[own.span.clone()].trim_matches(['"', '\'']), &own.unit)
+        (self.source.text[own.span.clone()].trim_matches(['"', '\'']), &own.unit)
+    }
+
+    /// The text.
+    pub(super) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// The same as a tree.
+    pub(super) fn root(&self) -> &Item {
+        &self.root
+    }
+
+    /// Where a number or a word begins in it.
+    pub(super) fn start(&self, at: usize) -> u32 {
+        u32::try_from(self.all[at].span.start).unwrap_or(u32::MAX)
     }
 
     /// The text of the scene with other values in the place of some numbers.
@@ -287,17 +304,18 @@ impl Tunables {
         let mut values: Vec<(&Range<usize>, &str)> =
             values.iter().map(|(at, value)| (&self.all[*at].span, value.as_str())).collect();
         values.sort_by_key(|value| value.0.start);
-        let mut text = String::with_capacity(self.text.len() + 16 * values.len());
+        let whole = &self.source.text;
+        let mut text = String::with_capacity(whole.len() + 16 * values.len());
         let mut from = 0;
         for (span, value) in values {
-            text.push_str(&self.text[from..span.start]);
+            text.push_str(&whole[from..span.start]);
             // Counts have to stand without quotes, quantities with their units within.
             let is_bare = value.parse::<f64>().is_ok_and(f64::is_finite);
             let quote = if is_bare { "" } else { "\"" };
             text.extend([quote, value, quote]);
             from = span.end;
         }
-        text.push_str(&self.text[from..]);
+        text.push_str(&whole[from..]);
         text
     }
 

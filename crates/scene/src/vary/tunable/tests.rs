@@ -124,3 +124,43 @@ fn g_is_standard_gravity_where_an_acceleration_varies() {
     assert!((all[0].values[1] - 19.6133).abs() < 1e-12, "{:?}", all[0].values);
     assert!((all[1].values[1] - 0.02).abs() < 1e-15, "{:?}", all[1].values);
 }
+
+/// Every number of every shipped scene, a little larger, and a set one besides: read from the parsed text it is the
+/// scene of the text in which it is written, and so is what is refused.
+#[test]
+fn a_scene_filled_with_values_is_that_of_its_text() {
+    let set = [("run.duration".to_owned(), "7 ms".to_owned())];
+    for shipped in crate::templates().iter().chain(crate::references()) {
+        let own = Tunables::of(shipped.text, None).unwrap();
+        for (at, tunable) in own.all().iter().enumerate() {
+            let number = own.written(at).0.split(' ').next().and_then(|own| own.parse().ok());
+            let values: Vec<String> = match (&tunable.word, number) {
+                (Some(word), _) => vec![word.clone(), "no such word".to_owned()],
+                (None, number) => [1.0625, -2.0]
+                    .map(|factor: f64| {
+                        format!("{:e} {}", factor * number.unwrap_or(3.0), tunable.unit)
+                    })
+                    .map(|own| own.trim_end().to_owned())
+                    .into(),
+            };
+            for value in values {
+                for set in [&set[..], &[]] {
+                    let options = ReadOptions { set, ..ReadOptions::default() };
+                    let change = [(at, value.clone())];
+                    let filled = own.posed(&change, &options);
+                    let written = crate::pose(&own.text_with(&change), &options);
+                    match (&filled, &written) {
+                        (Ok(filled), Ok(written)) => assert!(filled.is_solved_as(written)),
+                        (Err(filled), Err(written)) => {
+                            let told = |own: &Diagnostics| {
+                                own.list.iter().map(crate::Diagnostic::message).collect::<Vec<_>>()
+                            };
+                            assert_eq!(told(filled), told(written), "{}: {value}", tunable.path);
+                        }
+                        _ => panic!("{} {value}: {filled:?} {written:?}", tunable.path),
+                    }
+                }
+            }
+        }
+    }
+}
