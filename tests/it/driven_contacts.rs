@@ -471,3 +471,33 @@ fn bars_under_a_measured_pulse_hold_where_its_corners_limit_the_steps() {
         }
     }
 }
+
+/// A head that moves with a panel until a record begins to brake that, after a rest \[ms\].
+fn braked_after(rest: u32) -> String {
+    let row = |after: u32, value: &str| format!("[\"{} ms\", \"{value} g\"]", rest + after);
+    let rows = [row(0, "0"), row(10, "-40"), row(20, "0")].join(", ");
+    let before = if rest > 0 { "[\"0 ms\", \"0 g\"], " } else { "" };
+    format!(
+        "[nodes]\npanel = {{ velocity = \"15 m/s\", acceleration = {{ table = {{ points = [{before}{rows}], outside = \
+         \"zero\" }} }} }}\nhead = {{ mass = \"5 kg\", velocity = \"15 m/s\" }}\n[elements]\npad = {{ between = [\"head\", \
+         \"panel\"], kelvin = {{ spring = \"40 kN/m\", dashpot = \"100 N s/m\" }} }}\n[run]\nduration = \"{} ms\"\n",
+        80 + rest
+    )
+}
+
+/// What rests while all moves together is off from zero by rounding: that is no contact.
+#[test]
+fn contact_begins_with_the_record_however_long_all_has_moved_together() {
+    let of = |rest: u32, method: &str| value(&run(&braked_after(rest), method), "pad.contact-time");
+    for method in ["auto", "exact", "dop853"] {
+        let (expected, own) = of(0, method);
+        for rest in [1, 20, 300] {
+            let (found, error) = of(rest, method);
+            let off = (found - expected).abs();
+            assert!(
+                off <= error + own,
+                "{method}, {rest} ms: {found} ± {error}, {expected} ± {own}"
+            );
+        }
+    }
+}

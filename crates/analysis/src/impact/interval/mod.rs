@@ -331,7 +331,8 @@ impl Push {
 }
 
 /// The pushes of a force in order of time, without those that are next to nothing beside its largest
-/// magnitude: a touch that rounding makes is none.
+/// magnitude: a touch that rounding makes is none. What rests while all moves together is off from zero by rounding: where
+/// the error of the force is bounded, no push begins within its noise.
 pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     let floor = (NEXT_TO_NOTHING * force.bound()).max(force.noise);
     let mut found = Vec::new();
@@ -339,6 +340,9 @@ pub(crate) fn pushes(force: &Signal) -> Vec<Push> {
     for panel in &force.panels {
         if !rests(panel) {
             let size: f64 = panel.coefficients.iter().map(|coefficient| coefficient.abs()).sum();
+            if open.is_none() && force.error.is_some() && size <= force.noise {
+                continue;
+            }
             let (start, most) = open.unwrap_or((panel.start, 0.0));
             open = Some((start, most.max(size)));
         } else if panel.length() > 0.0
