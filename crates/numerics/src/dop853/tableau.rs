@@ -4,19 +4,19 @@
 //! II.10, in the digits of the program of that book.
 
 /// A sum of stages, each with its factor; stages are counted from 0.
-pub type Row = &'static [(usize, f64)];
+pub(super) type Row = &'static [(usize, f64)];
 
 /// One stage: its time in parts of the step, and the slopes that it is reached by.
 #[derive(Debug, Clone, Copy)]
-pub struct Stage {
+pub(super) struct Stage {
     /// When it is, in parts of the step.
-    pub time: f64,
+    pub(super) time: f64,
     /// The slopes that it is reached by.
-    pub slopes: Row,
+    pub(super) slopes: Row,
 }
 
 /// The stages after the first one, which has the slopes at the start of the step.
-pub const STAGES: [Stage; 11] = [
+pub(super) const STAGES: [Stage; 11] = [
     Stage { time: 0.052_600_151_958_767_73, slopes: &[(0, 0.052_600_151_958_767_73)] },
     Stage {
         time: 0.078_900_227_938_151_6,
@@ -114,7 +114,7 @@ pub const STAGES: [Stage; 11] = [
 ];
 
 /// The slopes by which the end of the step is reached, in order 8.
-pub const END: Row = &[
+pub(super) const END: Row = &[
     (0, 0.054_293_734_116_568_765),
     (5, 4.450_312_892_752_409),
     (6, 1.891_517_899_314_500_3),
@@ -126,7 +126,7 @@ pub const END: Row = &[
 ];
 
 /// What the solution of order 5 differs by.
-pub const FIFTH: Row = &[
+pub(super) const FIFTH: Row = &[
     (0, 0.013_120_044_994_194_88),
     (5, -1.225_156_446_376_204_4),
     (6, -0.495_758_949_657_250_2),
@@ -138,14 +138,14 @@ pub const FIFTH: Row = &[
 ];
 
 /// The slopes of the solution of order 3.
-pub const THIRD: Row =
+pub(super) const THIRD: Row =
     &[(0, 0.244_094_488_188_976_4), (8, 0.733_846_688_281_611_8), (11, 0.022_058_823_529_411_766)];
 
 /// The stage that has the slopes at the end of the step.
-pub const LAST: usize = 12;
+pub(super) const LAST: usize = 12;
 
 /// Three stages for the dense output alone.
-pub const FURTHER: [Stage; 3] = [
+pub(super) const FURTHER: [Stage; 3] = [
     Stage {
         time: 0.1,
         slopes: &[
@@ -188,7 +188,7 @@ pub const FURTHER: [Stage; 3] = [
 ];
 
 /// The last four coefficients of the dense output.
-pub const DENSE: [Row; 4] = [
+pub(super) const DENSE: [Row; 4] = [
     &[
         (0, -8.428_938_276_109_013),
         (5, 0.566_714_953_519_377_7),

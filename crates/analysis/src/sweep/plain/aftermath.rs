@@ -23,7 +23,7 @@ pub(crate) fn is_left<const N: usize>(
     (left, rtol): (f64, f64),
 ) -> bool {
     let Some(behind) = form.parted(instance) else { return false };
-    let Some(from) = course.track.late(course.release) else { return false };
+    let from = course.last.at(course.release);
     let pull = form.constant_force(numbers) / form.impactor_mass(numbers);
     let face = form.speed_of_face(instance);
     let speed = dot(&face, &from);
@@ -36,13 +36,13 @@ pub(crate) fn is_left<const N: usize>(
         let last = &nodes.values[nodes.values.len() - 1];
         is_massless && form.stored_at_most(numbers, &behind, last) <= least
     };
-    let Some(track) = stepped.settle(&from, rtol, &is_over) else { return false };
-    if track.steps.iter().any(|own| own.leave(&behind.curves, own.end())) {
+    let Some(steps) = stepped.settle(&from, rtol, &is_over) else { return false };
+    if steps.iter().any(|own| own.leave(&behind.curves, own.end)) {
         return false;
     }
     let time = form.time_scale();
     let (mut way, mut at) = (0.0, 0.0);
-    for step in &track.steps {
+    for step in &steps {
         let panel = step.panel(&|z| dot(&face, z));
         let gone = panel.antiderivative();
         // Where no mass swings, nothing comes back within a step.

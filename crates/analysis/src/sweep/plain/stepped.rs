@@ -4,20 +4,18 @@
 //! zero, and the unknowns at the nodes of these. Everything else is read off them, and how far it may be off from
 //! a second solution at a coarser tolerance.
 
+use std::convert::Infallible;
+
 use dashpot_dae::{Extremum, Panel, Signal};
 use dashpot_network::{CurveRow, Instance};
 use dashpot_numerics::{
     chebyshev::Interpolation,
-    dop853::{DEGREE, Step},
+    dop853::{Controller, DEGREE, Step},
     small::{apply, apply_left, dot},
 };
 
 /// The first step in parts of the time in which the unknowns change by themselves.
 const FIRST: f64 = 0.01;
-/// Part of the step that the estimate of its error allows which is taken.
-const SAFETY: f64 = 0.9;
-/// What a step may be longer and shorter by than the one before.
-const GROWTH: (f64, f64) = (0.2, 6.0);
 /// Steps, with those that were rejected, after which a scene is left to other methods.
 const MOST: usize = 2000;
 /// By what part of itself the last step goes beyond the release, at most twice that.
@@ -35,17 +33,18 @@ const BETWEEN: f64 = 0.25;
 #[derive(Debug, Clone)]
 pub(crate) struct Nodes<const N: usize> {
     start: f64,
-    end: f64,
+    pub(crate) end: f64,
     pub(crate) values: [[f64; N]; DEGREE + 1],
 }
 
 impl<const N: usize> Nodes<N> {
-    fn of(step: &Step<N>, (start, end): (f64, f64), instance: &Instance<N>) -> Self {
+    fn of(step: &Step<[f64; N]>, (start, end): (f64, f64), instance: &Instance<N>) -> Self {
         let nodes = Interpolation::of_degree(DEGREE);
         let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
         let mut values = [[0.0; N]; DEGREE + 1];
         for (at, own) in values.iter_mut().enumerate() {
-            *own = instance.completed(&step.at(place(at)));
+            step.look(place(at), own);
+            *own = instance.completed(own);
         }
         Self { start, end, values }
     }
@@ -73,10 +72,6 @@ impl<const N: usize> Nodes<N> {
         (0..N).map(relative).fold(0.0, f64::max)
     }
 
-    pub(crate) fn end(&self) -> f64 {
-        self.end
-    }
-
     /// Whether a law is pressed beyond where it holds, up to a time within.
     pub(crate) fn leave(&self, curves: &[CurveRow<N>], until: f64) -> bool {
         curves.iter().any(|curve| {
@@ -95,6 +90,11 @@ impl<const N: usize> Nodes<N> {
         })
     }
 
+    /// The unknowns at a time within.
+    pub(crate) fn at(&self, time: f64) -> [f64; N] {
+        std::array::from_fn(|at| self.panel(&|z| z[at]).value(time))
+    }
+
     /// The polynomial of what is looked at over it.
     pub(crate) fn panel(&self, look: &dyn Fn(&[f64; N]) -> f64) -> Panel {
         let (mut values, mut own) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
@@ -104,37 +104,15 @@ impl<const N: usize> Nodes<N> {
     }
 }
 
-/// The steps of a solution, over dimensionless time.
+/// What a solution shows of an impact, over dimensionless time.
 #[derive(Debug, Clone)]
-pub(crate) struct Track<const N: usize> {
-    pub(crate) steps: Vec<Nodes<N>>,
+pub(crate) struct Course<const N: usize> {
+    /// The last step, which goes beyond the release.
+    pub(crate) last: Nodes<N>,
     /// The sum of the [defects](Nodes::defect) of its steps.
     defect: f64,
     /// The largest last coefficient of the force in a step \[N\].
     truncation: f64,
-}
-
-impl<const N: usize> Track<N> {
-    fn new() -> Self {
-        Self { steps: Vec::new(), defect: 0.0, truncation: 0.0 }
-    }
-
-    /// The unknowns at a time in the last step.
-    pub(crate) fn late(&self, time: f64) -> Option<[f64; N]> {
-        let last = self.steps.last()?;
-        let mut all = [0.0; N];
-        for (at, own) in all.iter_mut().enumerate() {
-            *own = last.panel(&|z| z[at]).value(time);
-        }
-        Some(all)
-    }
-}
-
-/// What a solution shows of an impact, over dimensionless time.
-#[derive(Debug, Clone)]
-pub(crate) struct Course<const N: usize> {
-    /// The steps, of which the last one goes beyond the release.
-    pub(crate) track: Track<N>,
     /// The force \[N\], from the start to the release.
     pub(crate) force: Signal,
     /// The rate of the deformation \[m/s\].
@@ -151,8 +129,7 @@ impl<const N: usize> Course<N> {
     /// An estimate of the relative error of forces, deformations, speeds and times that are read off it, from the defects
     /// of its steps.
     pub(crate) fn relative_error(&self) -> f64 {
-        let Self { track, strongest, .. } = self;
-        SAFE * track.defect * self.sensitivity().max(1.0) + track.truncation / strongest.value
+        SAFE * self.defect * self.sensitivity().max(1.0) + self.truncation / self.strongest.value
     }
 
     /// The relative change of the largest force over that of the speed at the start. Where energy is kept this is `v₀² |F̈| / (F ÿ²)` at the peak: 1 for a linear spring, less on a plateau, more where it stiffens.
@@ -201,119 +178,114 @@ impl<const N: usize> Stepped<'_, N> {
     /// range, or the steps are too many.
     pub(crate) fn follow(&self, rtol: f64) -> Option<Course<N>> {
         let Instance { start, curves, .. } = self.instance;
-        let mut slopes = self.slopes();
         let looks = self.looks();
-        let mut step = Step::from(*start, &mut slopes);
-        let mut most = start.map(f64::abs);
-        let (mut length, mut time) = (self.first_step(start, step.first_slopes()), 0.0);
-        let mut course: [Vec<Panel>; 3] = Default::default();
-        let mut track = Track::new();
-        let mut strongest = 0.0_f64;
-        if self.end.is_nan() || self.end <= 0.0 {
-            return None;
-        }
-        for _ in 0..MOST {
-            length = length.min(self.end - time);
-            step.attempt(length, &mut slopes);
-            let mut error = step.error(self.unit(rtol, &most));
-            let mut seen = Seen::default();
-            let mut nodes = None;
-            let (mut defect, mut truncation) = (0.0, 0.0_f64);
-            if error <= 1.0 {
-                step.fit(&mut slopes);
-                let own = Nodes::of(&step, (time, time + length), self.instance);
-                seen = Seen::of(&own, &looks);
-                let force = &seen.coefficients[0];
-                strongest = strongest.max(force[0].abs());
-                truncation = force[DEGREE].abs();
-                defect = own.defect(self.instance, self.unit(1.0, &most));
-                error = error.max(truncation / (rtol * strongest)).max(defect / rtol);
-                nodes = Some(own);
-            }
-            let factor = factor(error);
-            if error.is_nan() || error > 1.0 {
-                length *= factor.min(SAFETY);
-                continue;
+        let mut paths: [Vec<Panel>; 3] = Default::default();
+        let (mut strongest, mut defect, mut truncation) = (0.0_f64, 0.0, 0.0_f64);
+        let mut last = None;
+        self.steps(start, rtol, &mut |nodes, most| {
+            let seen = Seen::of(&nodes, &looks);
+            let force = &seen.coefficients[0];
+            strongest = strongest.max(force[0].abs());
+            let cut = force[DEGREE].abs();
+            let off = nodes.defect(self.instance, self.unit(1.0, most));
+            let error = (cut / (rtol * strongest)).max(off / rtol);
+            if error > 1.0 {
+                return Some(Next::GoOn(error));
             }
             // Beyond the release laws may have kinks that the step would smear.
-            let until = seen.release(length);
-            let is_far = |until: &f64| *until > 0.0 && until * (1.0 + 2.0 * OVERSHOOT) < length;
-            if let Some(until) = until.filter(is_far) {
-                length = until * (1.0 + OVERSHOOT);
-                continue;
+            let part = seen.release();
+            let is_far = |part: &f64| *part > 0.0 && part * (1.0 + 2.0 * OVERSHOOT) < 1.0;
+            if let Some(part) = part.filter(is_far) {
+                return Some(Next::Shorter(part * (1.0 + OVERSHOOT)));
             }
             // What strikes is gone behind the release, however far the step reaches.
-            let held = until.map_or(time + length, |until| time + until.min(length));
-            let is_beyond = nodes.as_ref().is_some_and(|own| own.leave(curves, held));
-            if is_beyond || until.is_some_and(|until| until <= 0.0) {
+            let Nodes { start, end, .. } = nodes;
+            let held = part.map_or(end, |part| start + part.min(1.0) * (end - start));
+            if nodes.leave(curves, held) || part.is_some_and(|part| part <= 0.0) {
                 return None;
             }
-            for (panels, coefficients) in course.iter_mut().zip(seen.coefficients) {
-                let coefficients = coefficients.into();
-                panels.push(Panel { start: time, end: time + length, coefficients });
+            for (panels, coefficients) in paths.iter_mut().zip(seen.coefficients) {
+                panels.push(Panel { start, end, coefficients: coefficients.into() });
             }
-            track.steps.extend(nodes);
-            track.defect += defect;
-            track.truncation = track.truncation.max(truncation);
-            if until.is_some() {
-                return released(course, track);
+            defect += off;
+            truncation = truncation.max(cut);
+            if part.is_some() {
+                last = Some(nodes);
+                return Some(Next::Over);
             }
-            time += length;
-            if time.is_nan() || time >= self.end {
-                return None;
-            }
-            most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));
-            length *= factor;
-            step.go_on();
-        }
-        None
+            Some(Next::GoOn(error))
+        })?;
+        let last = last?;
+        let [force, depth, speed] = paths.map(|panels| Signal::new(panels, None, 0.0));
+        let release = force.first_crossing(0.0, (0.0, force.end()), Some(false))?.time;
+        let (strongest, deepest) = (force.maximum((0.0, release)), depth.maximum((0.0, release)));
+        let course = Course { last, defect, truncation, force, speed, release, strongest, deepest };
+        (release > 0.0 && !course.lingers()).then_some(course)
     }
 
-    /// Follows it from some unknowns on, without looking at its force, up to its end or until it `is_over`.
-    /// `None` where the steps are too many.
+    /// Follows it from some unknowns on, without looking at its force, up to its end or until it `is_over`: its steps.
+    /// `None` where they are too many.
     pub(crate) fn settle(
         &self,
         from: &[f64; N],
         rtol: f64,
         is_over: &dyn Fn(&Nodes<N>) -> bool,
-    ) -> Option<Track<N>> {
-        let mut slopes = self.slopes();
-        let mut step = Step::from(*from, &mut slopes);
-        let mut most = from.map(f64::abs);
-        let (mut length, mut time) = (self.first_step(from, step.first_slopes()), 0.0_f64);
-        let mut track = Track::new();
-        for _ in 0..MOST {
-            if time.is_nan() || time >= self.end {
-                return Some(track);
-            }
-            length = length.min(self.end - time);
-            step.attempt(length, &mut slopes);
-            let error = step.error(self.unit(rtol, &most));
-            let factor = factor(error);
-            if error.is_nan() || error > 1.0 {
-                length *= factor.min(SAFETY);
-                continue;
-            }
-            step.fit(&mut slopes);
-            let end = if length < self.end - time { time + length } else { self.end };
-            let nodes = Nodes::of(&step, (time, end), self.instance);
+    ) -> Option<Vec<Nodes<N>>> {
+        let mut all = Vec::new();
+        self.steps(from, rtol, &mut |nodes, _| {
             let is_last = is_over(&nodes);
-            track.steps.push(nodes);
-            if is_last {
-                return Some(track);
-            }
-            time = end;
-            most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));
-            length *= factor;
-            step.go_on();
-        }
-        None
+            all.push(nodes);
+            Some(if is_last { Next::Over } else { Next::GoOn(0.0) })
+        })?;
+        Some(all)
     }
 
-    /// How fast the unknowns change.
-    fn slopes(&self) -> impl FnMut(&[f64; N]) -> [f64; N] {
+    /// Takes steps from some unknowns on up to its end, or as `take` tells of each, which is also shown the largest magnitudes
+    /// before it. `None` where they are too many, or `take` gives up.
+    fn steps(
+        &self,
+        from: &[f64; N],
+        rtol: f64,
+        take: &mut dyn FnMut(Nodes<N>, &[f64; N]) -> Option<Next>,
+    ) -> Option<()> {
         let instance = self.instance;
-        move |z| apply(&instance.matrix, &instance.completed(z))
+        let mut slopes = |_: f64, z: &[f64; N], own: &mut [f64; N]| {
+            *own = apply(&instance.matrix, &instance.completed(z));
+            Ok::<(), Infallible>(())
+        };
+        let mut step = Step::new(*from);
+        let Ok(()) = step.begin(&mut slopes);
+        let (mut controller, mut most) = (Controller::default(), from.map(f64::abs));
+        let (mut length, mut time) = (self.first_step(from, &step.slopes()[0]), 0.0_f64);
+        for _ in 0..MOST {
+            let left = self.end - time;
+            if left.is_nan() || left <= 0.0 {
+                return (left <= 0.0).then_some(());
+            }
+            length = length.min(left);
+            let Ok(()) = step.attempt(length, &mut slopes);
+            let mut error = step.error(1.0, self.unit(rtol, &most));
+            let end = if length < left { time + length } else { self.end };
+            if error <= 1.0 {
+                let Ok(()) = step.close(&mut slopes);
+                let Ok(()) = step.fit(&mut slopes);
+                match take(Nodes::of(&step, (time, end), instance), &most)? {
+                    Next::GoOn(own) => error = error.max(own),
+                    Next::Shorter(part) => {
+                        length *= part;
+                        continue;
+                    }
+                    Next::Over => return Some(()),
+                }
+            }
+            length *= controller.factor(error);
+            if error <= 1.0 {
+                time = end;
+                most.iter_mut().zip(step.end()).for_each(|(most, own)| *most = most.max(own.abs()));
+                step.go_on();
+            }
+        }
+        None
     }
 
     /// What errors of an unknown are counted in.
@@ -335,13 +307,14 @@ impl<const N: usize> Stepped<'_, N> {
     }
 }
 
-/// What the next step may be longer by than one of this error.
-fn factor(error: f64) -> f64 {
-    if error.is_finite() {
-        (SAFETY * error.powf(-0.125)).clamp(GROWTH.0, GROWTH.1)
-    } else {
-        GROWTH.0
-    }
+/// What comes behind a step.
+enum Next {
+    /// The next one, where its error, in parts of what it may be, is not too large.
+    GoOn(f64),
+    /// A shorter one in its place, by this factor.
+    Shorter(f64),
+    /// None.
+    Over,
 }
 
 /// What a step shows.
@@ -369,30 +342,14 @@ impl Seen {
         Self { coefficients, force: values[0] }
     }
 
-    /// The first of the places at which the force no longer pushes; at the very start it may be zero.
-    fn opening(&self) -> Option<usize> {
-        Some(1 + self.force[1..].iter().position(|force| *force <= 0.0)?)
-    }
-
-    /// When the force falls through zero in a step of this length, as far as its places tell.
-    fn release(&self, length: f64) -> Option<f64> {
-        let at = self.opening()?;
+    /// At which part of the step the force falls through zero, as far as its places tell.
+    fn release(&self) -> Option<f64> {
+        // At the very start it may be zero.
+        let at = 1 + self.force[1..].iter().position(|force| *force <= 0.0)?;
         let nodes = Interpolation::of_degree(DEGREE);
         let place = |at: usize| 0.5 * (1.0 + nodes.nodes()[at]);
         let (before, after) = (self.force[at - 1], self.force[at]);
         let part = if before > after { before / (before - after) } else { 0.0 };
-        Some(length * (place(at - 1) + part * (place(at) - place(at - 1))))
+        Some(place(at - 1) + part * (place(at) - place(at - 1)))
     }
-}
-
-/// The course up to the release, which lies in the last panel.
-fn released<const N: usize>(
-    [force, depth, speed]: [Vec<Panel>; 3],
-    track: Track<N>,
-) -> Option<Course<N>> {
-    let [force, depth, speed] = [force, depth, speed].map(|panels| Signal::new(panels, None, 0.0));
-    let release = force.first_crossing(0.0, (0.0, force.end()), Some(false))?.time;
-    let (strongest, deepest) = (force.maximum((0.0, release)), depth.maximum((0.0, release)));
-    let course = Course { track, force, speed, release, strongest, deepest };
-    (release > 0.0 && !course.lingers()).then_some(course)
 }

@@ -1,6 +1,7 @@
 //! Where steps end in a span whose driving functions have corners.
 
-use super::{GROWTH, SAFETY};
+use dashpot_numerics::dop853::{GROWTH, allowed};
+
 use crate::methods::stepping::Walk;
 
 /// A step crosses corners where it holds so many of them: to end at a single one costs no more, and is exact.
@@ -34,9 +35,9 @@ impl Corners {
 
     /// The step that is wanted behind one of this length and error that has been cut from what was wanted: where corners may be
     /// crossed it grows as the error lets it.
-    pub(super) fn kept(&self, (wanted, step): (f64, f64), error: Option<f64>) -> f64 {
-        let own = error.map_or(wanted, |error| SAFETY * step * error.powf(-0.125));
-        if self.times.len() > 1 { own.clamp(wanted, GROWTH.1 * wanted) } else { wanted }
+    pub(super) fn kept(&self, (wanted, step): (f64, f64), error: f64) -> f64 {
+        let most = if self.times.len() > 1 { GROWTH.1 } else { 1.0 };
+        allowed(step, error).min(most * wanted).max(wanted)
     }
 
     /// The borders between which a step of this length from `t` on is to end: the corners beside it, or those of the span where

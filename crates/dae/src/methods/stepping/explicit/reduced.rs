@@ -100,15 +100,21 @@ impl<'s> Reduced<'s> {
         &self.differential
     }
 
-    /// Solves the balances at the time `t` in the span for the algebraic entries of `y`, which are a first
-    /// guess; then the rates of the differential unknowns, in their order, are those of `slopes`.
+    /// Sets the differential entries of `y`.
+    pub(super) fn set(&self, own: &[f64], y: &mut [f64]) {
+        self.differential.iter().zip(own).for_each(|(&at, own)| y[at] = *own);
+    }
+
+    /// Solves the balances at the time `t` in the span, where the differential unknowns are `own`, for the algebraic entries of
+    /// `y`, which are a first guess, and sets the others; then the rates of the differential ones, in their order, are `slopes`.
     pub(super) fn slopes(
         &mut self,
         t: f64,
-        y: &mut [f64],
+        (own, y): (&[f64], &mut [f64]),
         slopes: &mut [f64],
     ) -> Result<(), Unbalanced> {
         self.calls += 1;
+        self.set(own, y);
         self.balance(t, y)?;
         self.rates_at(y, slopes);
         Ok(())
@@ -335,8 +341,8 @@ mod tests {
             for &at in &reduced.algebraic.clone() {
                 y[at] *= 0.9;
             }
-            let mut slopes = vec![0.0; reduced.differential().len()];
-            reduced.slopes(0.0, &mut y, &mut slopes).unwrap();
+            let own: Vec<f64> = reduced.differential().iter().map(|&at| y[at]).collect();
+            reduced.slopes(0.0, (&own, &mut y), &mut own.clone()).unwrap();
             let gap = y.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(gap < 1e-9, "{}: {gap:e}", problem.name);
         }
