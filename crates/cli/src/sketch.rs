@@ -171,14 +171,13 @@ pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
                 && rising.value == 0.0
                 && is_straight(after)
                 && after.slope == 0.0
-                && waveform.jump(after.start) == 0.0 =>
+                && waveform.jumps().all(|jump| jump.0 < after.start) =>
         {
             let length = rounded(after.start - rising.start, "s", DIGITS);
             format!("ramp to {} in {length}", constant(after.value, si))
         }
         [_, rest @ ..] if pieces.iter().all(is_straight) => {
-            let jumps = rest.iter().filter(|piece| waveform.jump(piece.start) != 0.0).count();
-            format!("table of {} points, up to {}", rest.len() + jumps, most())
+            format!("table of {} points, up to {}", rest.len() + waveform.jumps().count(), most())
         }
         _ => format!("up to {}", most()),
     }

@@ -197,17 +197,22 @@ impl System {
         self.waveforms.iter().filter_map(swing).reduce(f64::min)
     }
 
-    /// What the outputs of a solution on `[0, end]` are told from: driving functions and output forms, without
-    /// the equations.
-    pub(crate) fn reporting(&self, end: f64) -> Self {
+    /// What the outputs of a solution on `[0, end]` are told from: driving functions and output forms, and the equations
+    /// where they are `few`.
+    pub(crate) fn reporting(&self, end: f64, few: usize) -> Self {
+        let is_small = self.len() <= few;
+        let matrix = |own: &CsrMatrix<f64>| {
+            if is_small { own.clone() } else { CsrMatrix::zeros(0, 0) }
+        };
+        let rows = if is_small { self.len() } else { 0 };
         Self {
-            unknowns: Vec::new(),
-            jacobian: CsrMatrix::zeros(0, 0),
-            input_matrix: CsrMatrix::zeros(0, 0),
+            unknowns: self.unknowns[..rows].to_vec(),
+            jacobian: matrix(&self.jacobian),
+            input_matrix: matrix(&self.input_matrix),
             inputs: self.inputs.clone(),
             waveforms: self.waveforms.iter().map(|waveform| waveform.within(end)).collect(),
-            terms: Vec::new(),
-            initial: Vec::new(),
+            terms: if is_small { self.terms.clone() } else { Vec::new() },
+            initial: self.initial[..rows].to_vec(),
             outputs: self.outputs.clone(),
             time_scale: self.time_scale,
         }

@@ -87,8 +87,8 @@ pub trait Dense: Debug + Send + Sync {
         self.signal(system, output).derivative()
     }
 
-    /// An output or, of order 1, its rate at these `times` \[s\] in SI units, but for rounding those of the signal;
-    /// `None` where the signal is the way to them.
+    /// An output or, of order 1, its rate at these `times` \[s\] in SI units, from the left: but for rounding those of the
+    /// signal, or nearer to the solution than its slopes; `None` where the signal is the way to them.
     fn values(
         &self,
         _system: &System,

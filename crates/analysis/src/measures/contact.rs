@@ -120,7 +120,12 @@ impl MeasureKind for CoefficientOfRestitution {
         }
         let parting = Reading::end_value(&rate, &span);
         // What jumps at the end has jumped.
-        let speed = if is_struck(span.to) { Some(rate.value(span.to)) } else { parting.value };
+        let speed = if is_struck(span.to) {
+            Some(rate.value(span.to))
+        } else {
+            let told = || solution.told_approach(connection, span.to);
+            face.map_or_else(told, |_| None).or(parting.value)
+        };
         let value = -speed.unwrap_or(f64::NAN) / meeting;
         let error = parting.error.zip(rate.error);
         let error = error.map(|(end, start)| (end + value.abs() * start) / meeting.abs());

@@ -207,6 +207,17 @@ impl<'a> Solution<'a> {
         }
     }
 
+    /// The [approach](Self::approach) of the ends of an element just before `time` \[m/s\], where it follows from the deformation
+    /// and the equations tell it better than that.
+    pub(crate) fn told_approach(&self, connection: &ConnectionOutputs, time: f64) -> Option<f64> {
+        let dense = &self.trajectory.dense;
+        let ends = connection.between.map(|end| self.velocity_of_body(end.index()));
+        if connection.rate.is_some() || ends.iter().all(Option::is_some) || dense.has_rates() {
+            return None;
+        }
+        dense.values(&self.assembly.system, connection.deformation, 1, &[time])?.pop()
+    }
+
     /// The speed at which two nodes approach each other \[m/s\], as that of their bodies; `None` where
     /// one of those has no velocity.
     pub(crate) fn approach_of(&self, [a, b]: [usize; 2]) -> Option<Signal> {

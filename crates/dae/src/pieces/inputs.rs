@@ -95,7 +95,7 @@ pub(super) fn add(
         let starts = output.inputs.terms().filter_map(|term| waveform(term).piece_until(time).1);
         starts.fold(f64::INFINITY, f64::min)
     };
-    let mut terms: Vec<Term> = Vec::new();
+    let (mut terms, mut nodal): (Vec<Term>, Vec<f64>) = Default::default();
     for section in step.sections(next) {
         terms.clear();
         terms.extend(output.inputs.terms().map(|term| term_of(system, &section, term)));
@@ -117,7 +117,8 @@ pub(super) fn add(
                 }
                 sum * output.scale
             };
-            let nodal: Coefficients = interpolation.nodes().iter().map(value).collect();
+            nodal.clear();
+            nodal.extend(interpolation.nodes().iter().map(value));
             let mut coefficients = Coefficients::zeros(degree + 1);
             interpolation.coefficients(&nodal, &mut coefficients);
             let time = |x| (step.origin + between(step.start, step.end, x)) * system.time_scale;

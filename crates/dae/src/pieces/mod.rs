@@ -11,7 +11,7 @@ mod tests;
 
 use std::sync::OnceLock;
 
-use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System};
+use crate::{Dense, Digest, Keep, Output, Panel, Run, Signal, System, derivatives};
 use conversion::Conversions;
 use stream::Stream;
 
@@ -298,6 +298,28 @@ impl LastStep<'_> {
 impl Dense for Pieces {
     fn signal(&self, system: &System, output: usize) -> Signal {
         self.whole(system, system.outputs.at(output))
+    }
+
+    /// Rates: those of the equations, which tell of corners of driving functions within a step.
+    fn values(
+        &self,
+        system: &System,
+        output: usize,
+        order: usize,
+        times: &[f64],
+    ) -> Option<Vec<f64>> {
+        let rate = |time: &f64| {
+            let time = time / system.time_scale;
+            let state = self.sample(system, &[time]);
+            let waveforms = system.waveforms.iter().map(|own| own.since(time)).collect();
+            let system = System { waveforms, ..system.clone() };
+            let is_told = !state.is_empty() && state.len() == system.len();
+            let motion = is_told.then(|| derivatives(&system, &state, 1).ok())??;
+            let output = system.outputs.at(output);
+            let rate = output.unknowns.at(&motion.values[1]) + output.inputs.at(&motion.inputs[1]);
+            Some(output.scale * rate / system.time_scale)
+        };
+        (order == 1).then(|| times.iter().map(rate).collect())?
     }
 
     fn sample(&self, _system: &System, times: &[f64]) -> Vec<f64> {

@@ -64,6 +64,21 @@ fn kept_outputs_are_those_of_a_full_run_to_the_bit() {
 }
 
 #[test]
+fn rates_of_what_balances_determine_follow_from_the_equations() {
+    let Problem { system, t_end, .. } = problems::maxwell_relaxation();
+    let run = Run::to(t_end).with_rtol(1e-3);
+    let trajectory = Bdf.integrate(&system, &run, &mut Silent).unwrap();
+    for time in [0.3 * t_end, 0.7 * t_end, t_end] {
+        let rate = trajectory.dense.values(&system, 1, 1, &[time]).unwrap()[0];
+        let scale = system.outputs.at(1).scale / system.time_scale;
+        let dashpot = trajectory.dense.sample(&system, &[time / system.time_scale])[0];
+        assert!((rate / scale - (dashpot - 1.0)).abs() < 1e-14, "{rate}");
+        let slope = trajectory.signal(&system, 1).slope(time);
+        assert!((slope - rate).abs() > 1e-6 * rate.abs(), "a slope as good: {slope}");
+    }
+}
+
+#[test]
 fn output_that_was_not_kept_is_not_a_number() {
     let own = problem(problems::vibrating_chain());
     let part = Part { outputs: vec![1], ..Part::default() };

@@ -17,6 +17,8 @@ use crate::{
 
 /// Most intervals of a run.
 const MOST_INTERVALS: usize = 200_000;
+/// Unknowns up to which an interval of a method with steps keeps its equations, which tell rates.
+const FEW: usize = 8;
 /// Roundings of the time that two instants are apart which are one.
 const AT_ONCE: f64 = 1.0;
 /// Most intervals that begin at one instant: more are a sign that no phases hold there.
@@ -127,7 +129,7 @@ fn solve(
             start,
             end: t_end,
             phases: interval.phases.clone(),
-            system: interval.system.reporting(length),
+            system: interval.system.reporting(length, if method.is_exact() { 0 } else { FEW }),
             dense: trajectory.dense,
         });
         if bytes > MOST_BYTES {

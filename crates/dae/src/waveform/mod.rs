@@ -115,16 +115,13 @@ impl Waveform {
         self.pieces.iter().skip(1).map(|piece| piece.start)
     }
 
-    /// The jump of the value at `t`, zero where the function is continuous up to rounding.
-    #[expect(clippy::float_cmp, reason = "a breakpoint is met exactly or not at all")]
-    pub fn jump(&self, t: f64) -> f64 {
-        let at = self.index_at(t);
-        if at == 0 || self.pieces[at].start != t {
-            return 0.0;
-        }
-        let [before, after] = [&self.pieces[at - 1], &self.pieces[at]];
-        let jump = after.derivative(0, t) - before.derivative(0, t);
-        if jump.abs() <= before.noise(t) + after.noise(t) { 0.0 } else { jump }
+    /// The times at which the value jumps by more than rounding, and by how much.
+    pub fn jumps(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        self.pieces.windows(2).filter_map(|pair| {
+            let (before, after, t) = (&pair[0], &pair[1], pair[1].start);
+            let jump = after.derivative(0, t) - before.derivative(0, t);
+            (jump.abs() > before.noise(t) + after.noise(t)).then_some((t, jump))
+        })
     }
 
     /// The same function with time and value measured in other units: `û(t̂) = u(t̂ · time) / value`.

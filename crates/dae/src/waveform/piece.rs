@@ -139,14 +139,17 @@ impl Piece {
     /// A bound of the size of the piece between two times in order.
     pub(super) fn bound(&self, from: f64, to: f64) -> f64 {
         let [slope, curvature, jerk] = [1, 2, 3].map(|order| self.polynomial(order, from));
+        let wave = if self.is_wave() { self.sine.hypot(self.cosine) } else { 0.0 };
+        let at = |t: f64| self.polynomial(0, t).abs();
+        let (ends, length) = (at(from).max(at(to)), to - from);
+        if slope.abs() > length * (curvature.abs() + 0.5 * length * jerk.abs()) {
+            return ends + wave;
+        }
         // The roots of slope + curvature s + ½ jerk s², as they come without cancellation.
         let root = (curvature * curvature - 2.0 * jerk * slope).max(0.0).sqrt();
         let sum = -(curvature + root.copysign(curvature));
         let inner = [sum / jerk, 2.0 * slope / sum].map(|s| from + s);
-        let inside = inner.into_iter().filter(|&t| t > from && t < to);
-        let polynomial = inside.chain([from, to]).map(|t| self.polynomial(0, t).abs());
-        let wave = if self.is_wave() { self.sine.hypot(self.cosine) } else { 0.0 };
-        polynomial.fold(0.0, f64::max) + wave
+        inner.into_iter().filter(|&t| t > from && t < to).map(at).fold(ends, f64::max) + wave
     }
 
     /// What rounding may change in the value at `t`, its time included.

@@ -110,7 +110,7 @@ pub(super) fn drives(
                 body: at,
                 force: None,
                 is_body_force: false,
-                jumps: jumps(network, motion, duration),
+                jumps: jumps(network, motion, duration).collect(),
             });
         }
     }

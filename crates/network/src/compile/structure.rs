@@ -85,9 +85,9 @@ impl Structure {
         let first_jump = |body: &Body| match body.role {
             Role::Prescribed(node) => match &network.nodes[node].support {
                 // What switches begins where its motions do.
-                Support::Prescribed(motion) => jumps(network, motion, duration)
-                    .into_iter()
-                    .find(|&time| time > 0.0 || !expansion.switches),
+                Support::Prescribed(motion) => {
+                    jumps(network, motion, duration).find(|&time| time > 0.0 || !expansion.switches)
+                }
                 _ => None,
             },
             _ => None,
@@ -254,16 +254,23 @@ fn held_bodies(expansion: &Expansion, bodies: &Bodies) -> Vec<bool> {
     (0..bodies.all.len()).map(|body| held[groups.of(body)]).collect()
 }
 
-/// All times in `[0, duration]` at which a displacement jumps \[s\]; one that is not zero at the
-/// start jumps there, unless the network begins in balance around it.
-pub(super) fn jumps(network: &Network, motion: &Waveform, duration: f64) -> Vec<f64> {
-    let rounding = 1e-12 * motion.bound(duration);
-    let is_balanced = network.effects.iter().any(|effect| effect.starts_in_balance());
-    let at_start = (!is_balanced && motion.value(0.0).abs() > rounding).then_some(0.0);
-    let later = motion
-        .breakpoints()
-        .filter(|&time| time > 0.0 && time <= duration && motion.jump(time) != 0.0);
-    at_start.into_iter().chain(later).collect()
+/// All times in `[0, duration]` at which a displacement jumps \[s\].
+pub(super) fn jumps(
+    network: &Network,
+    motion: &Waveform,
+    duration: f64,
+) -> impl Iterator<Item = f64> + Clone {
+    let at_start = jumps_at_start(network, motion, duration).then_some(0.0);
+    let later = motion.jumps().map(|jump| jump.0);
+    at_start.into_iter().chain(later.filter(move |&time| time > 0.0 && time <= duration))
+}
+
+/// Whether a displacement is not zero at the start, and the network does not begin in balance around it.
+pub(super) fn jumps_at_start(network: &Network, motion: &Waveform, duration: f64) -> bool {
+    let first = motion.value(0.0).abs();
+    first > 0.0
+        && !network.effects.iter().any(|effect| effect.starts_in_balance())
+        && first > 1e-12 * motion.bound(duration)
 }
 
 /// Whether what is given the motion of a body has mass, or is linked to one by what never gives way.

@@ -97,8 +97,8 @@ fn step(
     let is_damped = Stiffness::of(&face.model, highest).angle() > LOSSY;
     let is_light = network.node(node).mass <= 0.0;
     let load = network.loads.iter().find(|load| {
-        let jumps = |time: f64| time <= duration && load.force.jump(time) != 0.0;
-        load.node == node && (load.force.value(0.0) != 0.0 || load.force.breakpoints().any(jumps))
+        let jumps = || load.force.jumps().any(|(time, _)| time <= duration);
+        load.node == node && (load.force.value(0.0) != 0.0 || jumps())
     });
     let load = load.filter(|_| is_light && !is_damped)?;
     let (load, element) = (load.name.clone(), connection.name.clone());

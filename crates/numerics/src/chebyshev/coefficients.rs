@@ -5,11 +5,11 @@ use std::ops::{Deref, DerefMut};
 use smallvec::SmallVec;
 
 /// Coefficients up to which a polynomial takes no memory besides its own: those of a step.
-const INLINE: usize = 6;
+const INLINE: usize = 8;
 
 /// The coefficients `c_k` of a polynomial, by rising order; a slice of them wherever one is wanted.
 ///
-/// Polynomials of low degree are made and dropped by the thousand: up to degree 5 they allocate nothing.
+/// Polynomials of low degree are made and dropped by the thousand: up to degree 7 they allocate nothing.
 ///
 /// ```
 /// use dashpot_numerics::chebyshev::{Coefficients, evaluate};

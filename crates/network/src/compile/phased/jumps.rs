@@ -29,7 +29,7 @@ pub(super) fn through_contacts(
         .collect();
     let jumping = network.nodes.iter().enumerate().filter_map(|(at, node)| match &node.support {
         Support::Prescribed(motion) if !contacts.is_empty() => {
-            let mut times = jumps(network, motion, duration).into_iter();
+            let mut times = jumps(network, motion, duration);
             // Where it begins away from zero, the state begins there as well.
             let time = times.find(|&time| time > 0.0)?;
             let moved = moved_at_once(expansion, apart, apart.of_joint[at]);
@@ -63,7 +63,7 @@ pub(super) fn unseen(
     for (body, waveform) in motions.chain(loads).filter(|_| !watching.is_empty()) {
         let moved = moved_at_once(expansion, apart, body);
         let part = watching.iter().find(|own| own.1.into_iter().any(|end| moved[end]));
-        let jumping = jumps(network, waveform, duration).into_iter().filter(|own| *own < duration);
+        let jumping = jumps(network, waveform, duration).filter(|own| *own < duration);
         times.extend(part.into_iter().flat_map(|own| jumping.clone().map(|time| (time, own.0))));
     }
     times.sort_by(|one, other| one.0.total_cmp(&other.0));

@@ -63,6 +63,10 @@ pub struct PhasedNetwork {
 /// What tells combinations of phases apart: numbers of phases, and the bits of what they remember.
 type Key = Vec<(usize, u64)>;
 
+fn key(phases: &[Phase]) -> Key {
+    phases.iter().map(|phase| (phase.index, phase.memory.to_bits())).collect()
+}
+
 /// One combination of phases.
 pub(super) struct Mode {
     pub(super) system: Arc<System>,
@@ -121,7 +125,8 @@ pub(super) fn compile(
         NetworkWarning::WithinJump { element, time }
     }));
     phased.join_bodies(&mut compiled);
-    phased.modes = Mutex::default();
+    let first = phased.mode_of(&phased.first, &mut compiled);
+    phased.keep(&phased.first, first);
     Ok((compiled, phased))
 }
 
@@ -188,25 +193,29 @@ impl PhasedNetwork {
 
     /// The mode of these phases; compiled when it is first asked for.
     fn mode(&self, phases: &[Phase]) -> Result<Arc<Mode>, NetworkErrors> {
-        let key: Key = phases.iter().map(|phase| (phase.index, phase.memory.to_bits())).collect();
         if let Ok(modes) = self.modes.lock()
-            && let Some(mode) = modes.get(&key)
+            && let Some(mode) = modes.get(&key(phases))
         {
             return Ok(Arc::clone(mode));
         }
-        let mode = Arc::new(self.build(phases)?);
+        let mode = self.mode_of(phases, &mut self.compiled(phases)?);
+        Ok(self.keep(phases, mode))
+    }
+
+    fn keep(&self, phases: &[Phase], mode: Mode) -> Arc<Mode> {
+        let mode = Arc::new(mode);
         if let Ok(mut modes) = self.modes.lock() {
             // What slides to and fro remembers another place each time.
             if modes.len() >= MOST_KEPT {
                 modes.clear();
             }
-            modes.insert(key, Arc::clone(&mode));
+            modes.insert(key(phases), Arc::clone(&mode));
         }
-        Ok(mode)
+        mode
     }
 
-    fn build(&self, phases: &[Phase]) -> Result<Mode, NetworkErrors> {
-        let Compiled { system, primitives, transfer, mut kinks, .. } = self.compiled(phases)?;
+    fn mode_of(&self, phases: &[Phase], compiled: &mut Compiled) -> Mode {
+        let mut kinks = std::mem::take(&mut compiled.kinks);
         kinks.extend(&self.jumps);
         kinks.sort_by(f64::total_cmp);
         let (mut guards, mut of_guard) = (Vec::new(), Vec::new());
@@ -218,7 +227,9 @@ impl PhasedNetwork {
             .collect();
         for (part, exits) in exits.iter().enumerate() {
             let name = &self.expansion.primitives[self.parts[part]].name;
-            let Some(outputs) = primitives.iter().find(|primitive| primitive.name == *name) else {
+            let Some(outputs) =
+                compiled.primitives.iter().find(|primitive| primitive.name == *name)
+            else {
                 continue;
             };
             for (at, exit) in exits.iter().enumerate() {
@@ -240,8 +251,8 @@ impl PhasedNetwork {
                 of_guard.push((part, at));
             }
         }
-        let transfer = transfer.unwrap_or_default();
-        Ok(Mode { system: Arc::new(system), transfer, exits, guards, of_guard, kinks })
+        let transfer = compiled.transfer.take().unwrap_or_default();
+        Mode { system: Arc::new(compiled.system.clone()), transfer, exits, guards, of_guard, kinks }
     }
 
     /// The phases that hold after `time`. Where places jump then, that comes first, as if time stood still: what goes on from

@@ -9,7 +9,7 @@ use super::{
         balance::{self, Surroundings, UNBALANCED},
         bodies::{Bodies, Body, Groups, Role, joint_name},
         expand::Expansion,
-        structure::{Structure, jumps},
+        structure::{Structure, jumps_at_start},
     },
     is_contact,
     start::THROUGH_CONTACT,
@@ -64,9 +64,7 @@ impl<'a> Settling<'a> {
         position: &'a [f64],
     ) -> Option<Self> {
         let has_jumped = |node: &usize| match &network.nodes[*node].support {
-            Support::Prescribed(motion) => {
-                jumps(network, motion, duration).first().is_some_and(|&time| time <= 0.0)
-            }
+            Support::Prescribed(motion) => jumps_at_start(network, motion, duration),
             _ => network.nodes[*node].position != 0.0,
         };
         let jumped: Vec<usize> = (0..network.nodes.len()).filter(has_jumped).collect();
