@@ -61,6 +61,7 @@ pub struct Step<V> {
     dense: [V; DEGREE + 1],
 }
 
+#[expect(clippy::missing_errors_doc, reason = "the errors are those of the slopes")]
 impl<V: AsRef<[f64]> + AsMut<[f64]> + Clone> Step<V> {
     /// A step from `start`, of no length and without slopes yet.
     pub fn new(start: V) -> Self {

@@ -2,20 +2,20 @@ use std::convert::Infallible;
 
 use super::*;
 
-type Slopes<V> = fn(f64, &V, &mut V) -> Result<(), Infallible>;
-
 /// `ż = z²` from 1: `1/(1 − t)`, beside something that rests.
-fn blow_up(_: f64, z: &[f64; 2], slopes: &mut [f64; 2]) -> Result<(), Infallible> {
-    *slopes = [z[0] * z[0], 0.0];
-    Ok(())
+fn blow_up(z: &[f64], slopes: &mut [f64]) {
+    slopes.copy_from_slice(&[z[0] * z[0], 0.0]);
 }
 
 /// The step from `start` over this length, with its dense output.
-fn taken<V: AsRef<[f64]> + AsMut<[f64]> + Clone>(
-    start: V,
-    length: f64,
-    mut f: Slopes<V>,
-) -> Step<V> {
+fn taken<V>(start: V, length: f64, f: fn(&[f64], &mut [f64])) -> Step<V>
+where
+    V: AsRef<[f64]> + AsMut<[f64]> + Clone,
+{
+    let mut f = |_: f64, z: &V, slopes: &mut V| {
+        f(z.as_ref(), slopes.as_mut());
+        Ok::<(), Infallible>(())
+    };
     let mut step = Step::new(start);
     let Ok(()) = step.begin(&mut f);
     let Ok(()) = step.attempt(length, &mut f);
@@ -80,16 +80,11 @@ fn a_step_ends_where_slopes_cannot_be_told() {
 #[test]
 fn unknowns_on_the_heap_are_those_on_the_stack() {
     let stack = taken([1.0, 0.0], 0.3, blow_up);
-    let heap = taken(vec![1.0, 0.0], 0.3, |_, z, slopes| blow_up_on_heap(z, slopes));
+    let heap = taken(vec![1.0, 0.0], 0.3, blow_up);
     let mut inside = vec![0.0; 2];
     heap.look(0.4, &mut inside);
     assert_eq!(heap.end().as_slice(), stack.end());
     assert_eq!(inside[0].to_bits(), at(&stack, 0.4).to_bits());
-}
-
-fn blow_up_on_heap(z: &[f64], slopes: &mut [f64]) -> Result<(), Infallible> {
-    slopes.copy_from_slice(&[z[0] * z[0], 0.0]);
-    Ok(())
 }
 
 #[test]
@@ -105,10 +100,8 @@ fn dense_output_meets_both_ends_with_their_slopes() {
 
 #[test]
 fn the_error_counts_what_has_a_unit() {
-    let mut step = taken([1.0, 1.0], 0.3, |_, z, slopes| {
-        *slopes = [z[0] * z[0], 3.0 * z[1]];
-        Ok(())
-    });
+    let f = |z: &[f64], slopes: &mut [f64]| slopes.copy_from_slice(&[z[0] * z[0], 3.0 * z[1]]);
+    let mut step = taken([1.0, 1.0], 0.3, f);
     let unit = |at: usize, size: f64| if at == 0 { 1e-6 * size } else { 0.0 };
     let first = step.error(1.0, unit);
     let both = step.error(1.0, |_, size| 1e-6 * size);
