@@ -42,6 +42,9 @@ impl Tunables {
         values: &[(usize, String)],
         options: &ReadOptions<'_>,
     ) -> Result<Posed, Diagnostics> {
+        if let Some(own) = self.led_elsewhere(values, options)? {
+            return own.posed(&[], options);
+        }
         let posed = checked(BareNumbers::Silent, |faults| {
             Some(posed_in(&self.library(values, options, faults), faults))
         })?;
@@ -63,10 +66,25 @@ impl Tunables {
         name: &str,
         options: &ReadOptions<'_>,
     ) -> Result<(Model, bool), Diagnostics> {
+        if let Some(own) = self.led_elsewhere(values, options)? {
+            return own.model(&[], name, options);
+        }
         let model = checked(BareNumbers::Silent, |faults| {
             model_in(&self.library(values, options, faults), name, faults)
         });
         model.map(|own| own.value)
+    }
+
+    /// The scene with these values as its text has it, where they are words and something is set: paths lead through
+    /// words, that of a pad's spring to the model that the pad is made of.
+    fn led_elsewhere(
+        &self,
+        values: &[(usize, String)],
+        options: &ReadOptions<'_>,
+    ) -> Result<Option<Self>, Diagnostics> {
+        let is_word = |own: &(usize, String)| self.all()[own.0].word.is_some();
+        let is_led = !options.set.is_empty() && values.iter().any(is_word);
+        is_led.then(|| Self::of(&self.text_with(values), options.file)).transpose()
     }
 
     /// The documents of the scene with these values.

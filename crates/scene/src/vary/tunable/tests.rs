@@ -164,3 +164,18 @@ fn a_scene_filled_with_values_is_that_of_its_text() {
         }
     }
 }
+
+#[test]
+fn what_is_set_by_a_path_through_a_word_is_set_where_the_word_leads() {
+    const MODELS: &str = "[models]\nsoft = { spring = \"40 kN/m\" }\nhard = { spring = \"140 kN/m\" }\n\
+        [nodes]\nhead = { mass = \"5 kg\", velocity = \"3 m/s\" }\n\
+        [elements]\npad = { between = [\"head\", \"ground\"], model = \"soft\" }\n[run]\nduration = \"40 ms\"\n";
+    let own = Tunables::of(MODELS, None).unwrap();
+    let set = [("pad.spring".to_owned(), "777 kN/m".to_owned())];
+    let options = ReadOptions { set: &set, ..ReadOptions::default() };
+    let hard = [(own.anything("pad.model").unwrap(), "hard".to_owned())];
+    let filled = own.posed(&hard, &options).unwrap();
+    assert!(filled.is_solved_as(&crate::pose(&own.text_with(&hard), &options).unwrap()));
+    let unset = own.posed(&hard, &ReadOptions::default()).unwrap();
+    assert!(!filled.is_solved_as(&unset));
+}
