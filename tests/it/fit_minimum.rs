@@ -229,3 +229,13 @@ fn rows_that_read_nothing_contradict_a_zero_of_a_model_that_begins_before_them()
     assert_eq!(test["other_zero"]["rows"], 40, "{test}");
     assert_eq!(test["other_zero"]["median"].as_f64(), Some(0.0), "{test}");
 }
+
+#[test]
+fn rows_of_a_record_that_begins_with_the_impact_contradict_no_zero() {
+    let mut stream = Stream::new(5);
+    for _ in 0..12 {
+        let fit = fitted(&record(&mut stream, 0.0, 1.7));
+        assert!(fit["tests"][0]["other_zero"].is_null(), "{}", fit["tests"][0]);
+        assert_eq!(fit["parameters"]["K"]["identified"], true, "{}", fit["parameters"]);
+    }
+}

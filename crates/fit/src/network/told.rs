@@ -104,6 +104,11 @@ fn other_zero(test: &Test, left: &[f64], own: Own, [model, record]: [f64; 2]) ->
     let mut left: Vec<f64> = before(model).zip(left).map(|row| *row.1).collect();
     if left.len() < FEWEST {
         left = before(record).map(|row| own.offset - row.1).collect();
+        // A record that begins with the impact rises evenly until it has left its first value.
+        let (early, late) = left.split_at(left.len() / 2);
+        if (median(late) - median(early)).abs() > 0.25 * QUIET * peak {
+            return None;
+        }
     }
     let (rows, median) = (left.len(), median(&left));
     let blocks: Vec<f64> = left.chunks(rows.div_ceil(BLOCKS).max(1)).map(mean).collect();

@@ -34,6 +34,8 @@ const LOOKS: usize = 200;
 
 /// Why a scene cannot be solved, in words.
 type Solved<T> = Result<T, String>;
+/// What stands in a scene, and the scene where it is another one.
+type Written = (Vec<(usize, String)>, Option<Tunables>);
 
 /// A scene whose numbers are written into its text.
 pub(super) struct Poser<'s> {
@@ -50,7 +52,7 @@ pub(super) struct Poser<'s> {
 impl Poser<'_> {
     /// What stands in the scene where the numbers have these values in SI units; its text, where a model in it is
     /// another one.
-    fn written(&self, values: &[f64]) -> Solved<(Vec<(usize, String)>, Option<Tunables>)> {
+    fn written(&self, values: &[f64]) -> Solved<Written> {
         let each = || self.numbers.iter().zip(values);
         let texts = each().filter_map(|(own, value)| Some((own.at?, own.exact(*value))));
         let texts = list(texts);
