@@ -27,7 +27,7 @@ impl Tunables {
     /// use dashpot_scene::{ReadOptions, Tunables, pose, reference};
     ///
     /// let scene = Tunables::of(reference(), None)?;
-    /// let heavier = [(scene.find("arm.mass").unwrap(), "10 kg".to_owned())];
+    /// let heavier = [(scene.find("head.mass").unwrap(), "12 kg".to_owned())];
     /// let options = ReadOptions::default();
     /// let read = scene.posed(&heavier, &options)?;
     /// assert!(read.is_solved_as(&pose(&scene.text_with(&heavier), &options)?));
