@@ -502,22 +502,13 @@ fn contact_begins_with_the_record_however_long_all_has_moved_together() {
     }
 }
 
+/// The border between its layers has no mass: as they part, its speed follows from the equations.
 #[test]
 fn speed_of_parting_follows_a_noisy_drive_at_coarse_tolerances() {
-    let points: Vec<String> = (0..800)
-        .map(|at| format!("[\"{} s\", \"{} g\"]", 5e-5 * f64::from(at), at * 7 % 5 - 2))
-        .collect();
-    let layer = "thickness = \"2 cm\", area = \"80 cm^2\", foam = { modulus = \"1 MPa\", plateau = \"0.2 MPa\", \
-                 densification = \"50 kPa\", exponent = 2 }";
-    let text = format!(
-        "[nodes]\nbase = {{ acceleration = {{ table = {{ points = [{}] }} }} }}\nmiddle = {{}}\nhead = {{ mass = \"5 kg\", \
-         velocity = \"5 m/s\" }}\n[elements]\nskin = {{ between = [\"head\", \"middle\"], {layer} }}\ncore = {{ between = \
-         [\"middle\", \"base\"], {layer} }}\n[run]\nduration = \"40 ms\"\n",
-        points.join(", ")
-    );
+    let text = include_str!("../../scenes/knee-crash.toml");
     let [coarse, fine] = [1e-6, 1e-11].map(|rtol| {
-        let report = run_at(&text, "dop853", Some(rtol));
-        report.measure("skin.coefficient-of-restitution").unwrap().value.unwrap()
+        let report = run_at(text, "dop853", Some(rtol));
+        report.measure("soft.coefficient-of-restitution").unwrap().value.unwrap()
     });
-    assert!((coarse - fine).abs() < 1e-5, "{coarse}, not {fine}");
+    assert!((coarse - fine).abs() < 1e-4, "{coarse}, not {fine}");
 }
