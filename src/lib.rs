@@ -39,6 +39,7 @@ pub use dashpot_fit as fit;
 pub use dashpot_network as network;
 pub use dashpot_numerics as numerics;
 pub use dashpot_plot as plot;
+pub use dashpot_report as report;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
 pub use dashpot_signal as signal;

@@ -13,7 +13,6 @@ mod host;
 mod input;
 mod measured;
 mod non_identifiable;
-mod numbers;
 mod operand;
 mod options;
 mod origin;
@@ -25,12 +24,13 @@ mod said;
 mod section;
 mod sketch;
 mod terminal;
-mod text;
 mod unevaluated;
 mod varied;
 mod verbs;
 
 use std::{io::ErrorKind, process::ExitCode};
+
+use dashpot_report::{layout as text, numbers};
 
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
 pub use input::load;

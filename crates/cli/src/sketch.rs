@@ -10,8 +10,9 @@ use dashpot_network::{
     parameters::Kind as _,
 };
 use dashpot_plot::{
-    ReportFigure, Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
+    Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
 };
+use dashpot_report::ReportFigure;
 use dashpot_rheology::Tree;
 use dashpot_scene::Scene;
 

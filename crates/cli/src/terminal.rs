@@ -7,12 +7,11 @@ use std::{
 };
 
 use clap::builder::styling::{AnsiColor, Style};
+pub(crate) use dashpot_report::{Tone, layout::WIDTH};
+use dashpot_report::{Tones, layout::hanging};
 use dashpot_scene::{Diagnostics, visible};
 
-use crate::{args::When, error::CliError, host, part::token, text::hanging};
-
-/// Columns of text.
-pub(crate) const WIDTH: usize = 80;
+use crate::{args::When, error::CliError, host, part::token};
 
 /// Where text goes.
 #[derive(Debug, Clone, Copy)]
@@ -57,11 +56,6 @@ impl Terminal {
         Self { output: nobody, error: nobody, is_one: false }
     }
 
-    /// The text in the colour of its tone, for standard output.
-    pub(crate) fn toned(self, tone: Tone, text: &str) -> String {
-        if self.output.colored { marked(tone, text) } else { text.to_owned() }
-    }
-
     pub(crate) fn warn(self, text: &str) {
         if !host::said(host::Tone::Warning, text, None) {
             self.labelled("warning", Tone::Warning, text);
@@ -102,6 +96,13 @@ impl Terminal {
             Some(rest) => message(&(marked(tone, label) + rest)),
             None => message(&shown),
         }
+    }
+}
+
+/// Colours of standard output.
+impl Tones for Terminal {
+    fn toned(&self, tone: Tone, text: &str) -> String {
+        if self.output.colored { marked(tone, text) } else { text.to_owned() }
     }
 }
 
@@ -165,22 +166,7 @@ fn put(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// What a text is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tone {
-    /// A heading.
-    Heading,
-    /// What the reader must know.
-    Warning,
-    /// Less important.
-    Faint,
-    /// The word before an error.
-    Error,
-    /// The word before a proposal.
-    Help,
-}
-
-/// All of them, each with its letter in a mark.
+/// All tones, each with its letter in a mark.
 const TONES: [(char, Tone); 5] = [
     ('h', Tone::Heading),
     ('w', Tone::Warning),
@@ -193,15 +179,13 @@ const END: char = '.';
 /// What marks begin with: a character that Unicode leaves to programs, and digits that no text of a file can know.
 static MARK: LazyLock<String> = LazyLock::new(|| format!("\u{fdd0}{}", token()));
 
-impl Tone {
-    fn style(self) -> Style {
-        match self {
-            Self::Heading => Style::new().bold(),
-            Self::Warning => AnsiColor::Yellow.on_default().bold(),
-            Self::Faint => Style::new().dimmed(),
-            Self::Error => AnsiColor::Red.on_default().bold(),
-            Self::Help => AnsiColor::Cyan.on_default().bold(),
-        }
+fn style(tone: Tone) -> Style {
+    match tone {
+        Tone::Heading => Style::new().bold(),
+        Tone::Warning => AnsiColor::Yellow.on_default().bold(),
+        Tone::Faint => Style::new().dimmed(),
+        Tone::Error => AnsiColor::Red.on_default().bold(),
+        Tone::Help => AnsiColor::Cyan.on_default().bold(),
     }
 }
 
@@ -220,8 +204,8 @@ pub(crate) fn shown(text: &str) -> String {
         let mut rest = part.chars();
         let letter = rest.next();
         let _ = match TONES.iter().find(|own| Some(own.0) == letter) {
-            Some((_, tone)) => write!(shown, "{}", tone.style()),
-            None => write!(shown, "{}", Tone::Heading.style().render_reset()),
+            Some((_, tone)) => write!(shown, "{}", style(*tone)),
+            None => write!(shown, "{}", style(Tone::Heading).render_reset()),
         };
         shown += &visible(rest.as_str());
     }

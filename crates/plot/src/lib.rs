@@ -1,4 +1,4 @@
-//! Charts, network drawings and reports of dashpot, from plain numbers and texts to SVG, HTML and terminal text.
+//! Charts, maps and network drawings of dashpot, from plain numbers and texts to SVG and terminal text.
 //!
 //! - [`Chart`]: curves with markers and limits, as [SVG](Chart::svg) and as [text](Chart::text).
 //! - [`figures`]: the register of figures that are drawn from the [`RunSeries`] of one or several runs.
@@ -7,7 +7,6 @@
 //! - [`figures::FIT_FIGURES`]: the register of figures that are drawn from the [`FitSeries`] of fits.
 //! - [`Sketch`]: a network of masses, springs, dashpots and supports, as [SVG](Sketch::svg) and as [text](Sketch::text).
 //! - [`Map`]: a value over two quantities, as [SVG](Map::svg).
-//! - [`Report`]: one self-contained HTML page.
 //!
 //! Nothing here knows scenes, systems or solvers, reads files or prints: data in, text out.
 
@@ -16,7 +15,6 @@ mod chart;
 mod decimation;
 pub mod figures;
 mod map;
-mod report;
 mod sketch;
 mod text_metrics;
 mod theme;
@@ -38,7 +36,8 @@ pub use figures::{
     VibrationCurve, VibrationSeries,
 };
 pub use map::{Map, MapLimit, Side};
-pub use report::{Report, ReportFigure, Table};
 pub use sketch::{
     Sketch, SketchGravity, SketchKind, SketchLaw, SketchLink, SketchNode, SketchTree,
 };
+pub use text_metrics::escape;
+pub use theme::page_colours;

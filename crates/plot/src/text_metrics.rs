@@ -4,7 +4,7 @@
 
 /// `text` as XML character data: markup characters escaped, line breaks and tabs as spaces, and characters that XML
 /// forbids or nobody sees replaced by U+FFFD.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match printable(c) {

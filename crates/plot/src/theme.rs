@@ -91,6 +91,11 @@ pub(crate) const PAPER: Colour = Colour::of(0xFF_FF_FE);
 /// Filling of masses.
 pub(crate) const FILL: Colour = Colour::of(0xE9_EE_F3);
 
+/// The colours of ink, paper, grid and fills, as they stand in every drawing: a style sheet for dark pages turns them.
+pub fn page_colours() -> [String; 5] {
+    [INK, FAINT, GRID, PAPER, FILL].map(Colour::hex)
+}
+
 /// Colours of curves that stay apart for colour-blind eyes and on light and dark pages
 /// (Okabe and Ito, Color Universal Design, 2008; without black and yellow).
 const PALETTE: [u32; 7] =

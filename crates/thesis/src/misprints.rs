@@ -1,6 +1,6 @@
 //! What the thesis misprints, with the correct form, and what each of the two gives.
 
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{
     Constants, Groups, Impact, Padding, Pulse, STANDARD_GRAVITY, Scales, Study, Support,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use dashpot_plot::{Report, ReportFigure, Table};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use crate::{
     Claim, EQUATIONS, Figure, Misprint, Number, NumberVerdict, Study, ThesisError, Verdict, claims,
@@ -100,7 +100,7 @@ impl Recomputation {
     }
 
     /// The report as a page, with the drawings in the order of the figures.
-    pub fn page(&self, drawings: Vec<ReportFigure>) -> Report {
+    pub fn page(&self, drawings: Vec<ReportFigure>) -> Page {
         let equations = Table::plain(FIGURE_3, EQUATIONS.iter().map(|own| vec![(*own).to_owned()]));
         let mut tables = self.number_tables().to_vec();
         tables.extend([misprint_table(&self.misprints), self.claim_table(), equations]);
@@ -111,13 +111,13 @@ impl Recomputation {
                 ..table.clone()
             })
         });
-        Report {
+        Page {
             title: TITLE.to_owned(),
             verdict: self.summary(),
             tables,
             figures: drawings,
             details: evidence.collect(),
-            ..Report::default()
+            ..Page::default()
         }
     }
 

@@ -1,7 +1,7 @@
 //! The impacts that everything else is read off: the base and families with one parameter varied.
 
 use dashpot_numerics::roots::false_position;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{
     Groups, Impact, Padding, Scales, Support, ThesisError,

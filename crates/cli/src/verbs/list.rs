@@ -27,6 +27,7 @@ use crate::{
     text::{columns, wrapped},
     verbs::run::level,
 };
+use dashpot_report::Tones as _;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Family {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use dashpot_dae::Extremum;
-use dashpot_plot::{ReportFigure, Table};
+use dashpot_report::{ReportFigure, Table};
 use dashpot_thesis::{
     Claim, DURATION, Drawing, Figure, Member, Misprint, Number, NumberVerdict, Recomputation,
     Scales, Verdict, figure_stems, figures,

@@ -9,7 +9,7 @@ mod padding;
 mod pulse;
 mod trends;
 
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{Family, Impact, Scales, Study, ThesisError, words::listed};
 

@@ -3,7 +3,7 @@
 mod tables;
 
 use dashpot_analysis::similarity::{self, SimilarityError};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{
     Fit, Groups, Padding, Parameter, Pulse, Scales, Study, Support, ThesisError, best_pulse,

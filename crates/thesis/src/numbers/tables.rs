@@ -2,7 +2,7 @@
 
 use std::f64::consts::E;
 
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{Checks, Fit, Impact, Parameter, Pulse, Study, best_pulse, misfit, words::significant};
 

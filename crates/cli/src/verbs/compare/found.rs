@@ -1,7 +1,7 @@
 //! What a comparison of two models has found, and its tables. As an object it is in SI units; what is
 //! infinite or missing is null.
 
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_rheology::{
     Canonical,
     equivalence::{Equivalence, FormComparison, ModePair, Pair, SAME_WITHIN},

@@ -1,7 +1,8 @@
 //! What `cost` draws, and what it writes into a folder.
 
 use dashpot_analysis::work_precision::{CostPoint, CostReport, Deviation};
-use dashpot_plot::{PrecisionCurve, PrecisionSeries, Report, ReportFigure, Table};
+use dashpot_plot::{PrecisionCurve, PrecisionSeries};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     Costs,
@@ -70,13 +71,13 @@ pub(super) fn write(files: &mut Staged<'_>, costs: &Costs) -> Result<(), CliErro
     figures.into_iter().try_for_each(|(name, own)| files.add(name, own.svg))
 }
 
-fn page(costs: &Costs, figures: &[(String, ReportFigure)]) -> Report {
+fn page(costs: &Costs, figures: &[(String, ReportFigure)]) -> Page {
     let Costs { scene, report, accuracies } = costs;
     let faults = costs.faults().map(|(caption, lines)| Table::list(caption, lines));
     let details =
         [Table::list("What is true", reference_notes(report)), work(report), measures(report)];
     let details = details.into_iter().chain(faults);
-    Report {
+    Page {
         title: title(scene).to_owned(),
         warnings: Vec::new(),
         verdict: vec![answer(report, accuracies)],

@@ -6,7 +6,7 @@ use dashpot_analysis::work_precision::{
     CostFailure, CostPoint, CostReport, Deviation, Spread, Subject, Timing, TrueMeasure,
     Underestimate,
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::{subject, tolerance, wish};
 use crate::{

@@ -1,7 +1,7 @@
 //! What stands beside cushion curves, in words: the stress–energy method, drops in a row, and creep.
 
 use dashpot_design::cushion::{Collapse, Creep, Curve, Repeated, StressEnergy, Trust};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_units::percent;
 
 use super::{

@@ -3,9 +3,8 @@
 use std::io;
 
 use dashpot_design::cushion::{Asked, Curve, Known, StressEnergy};
-use dashpot_plot::{
-    CushionCurve, CushionMark, CushionSeries, Report, ReportFigure, StressEnergySeries, Table,
-};
+use dashpot_plot::{CushionCurve, CushionMark, CushionSeries, StressEnergySeries};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     Drawn, batches, beside,
@@ -136,7 +135,7 @@ fn curve(own: &Curve) -> CushionCurve {
     CushionCurve { name: length(own.thickness), points, floor, best, later, band: list(band) }
 }
 
-fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Report {
+fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Page {
     let scene = &drawn.scene;
     let settings = Table::plain("Settings", origin::rows(scene));
     let verdict = words::lines(drawn).into_iter();
@@ -145,7 +144,7 @@ fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Report {
     let beside = [beside::row_table(drawn), beside::creep_table(drawn)];
     let tables = [words::table(drawn)].into_iter().chain(beside);
     let tables = tables.chain([Table::list("Remarks", remarks)]);
-    Report {
+    Page {
         title: title(scene).to_owned(),
         warnings: list(words::missing(drawn).into_iter().chain(said::warnings(scene, &[]))),
         verdict: [words::asked(drawn)].into_iter().chain(verdict).collect(),

@@ -10,7 +10,7 @@ use dashpot_design::cushion::{
     Assumed, Best, Curve, CushionPoint, Known, Passing, Place, Reach, Thinnest, Unmet,
 };
 use dashpot_network::parameters::Kind as _;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_units::percent;
 
 use super::{

@@ -1,7 +1,7 @@
 //! What `design` writes: a scene into a file, or all that it says into a folder.
 
 use dashpot_design::optimum::Design;
-use dashpot_plot::{Report, ReportFigure, Table};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     DesignArguments,
@@ -102,8 +102,8 @@ pub(super) fn write(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliEr
     files.add(PAGE, page(answer, best, figures).html())
 }
 
-fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
-    let Some((choice, _)) = answer.best() else { return Report::default() };
+fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Page {
+    let Some((choice, _)) = answer.best() else { return Page::default() };
     let lines = words::lines(answer, choice, best);
     let verdict = lines
         .iter()
@@ -117,7 +117,7 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Report {
         [told].into_iter().chain(tables::all(answer, best)).chain(scattered).chain([notes]);
     let known = answer.warnings();
     let asked = answer.settings.iter().map(|(name, value)| vec![(*name).to_owned(), value.clone()]);
-    Report {
+    Page {
         title: title(&answer.scene).to_owned(),
         warnings: list(said::warnings(&answer.scene, &known).into_iter().chain(known)),
         verdict,

@@ -1,7 +1,7 @@
 //! Tables of a design: sensitivities, the front of two aims, and choices.
 
 use dashpot_design::optimum::{Design, Kept, Requirement};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::{
     answer::{Answer, Found},

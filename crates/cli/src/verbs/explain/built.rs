@@ -5,7 +5,7 @@ use dashpot_network::{
     Node, NodeId, NodeOutputs, PadOutputs, PrimitiveOutputs, Situation, Start, Support,
     elements::Law, segments::resolved,
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Scene, units::si_unit};
 
 use super::first_rows;

@@ -6,7 +6,7 @@ use dashpot_analysis::{
 };
 use dashpot_dae::Silent;
 use dashpot_network::Detail;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Scene, write_effect};
 
 use super::MOST;

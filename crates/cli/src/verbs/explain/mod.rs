@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use dashpot_analysis::{choice, contribution::SystemSize, reported_measures};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Scene, outline};
 
 use crate::{

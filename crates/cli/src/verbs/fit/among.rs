@@ -5,7 +5,7 @@ use dashpot_fit::{
     network::{Kind, NetworkFit, Profile, Test},
 };
 use dashpot_network::{first_nonlinear, linear_model};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{NamedModel, read_named_model, with_model};
 use serde::Serialize;
 

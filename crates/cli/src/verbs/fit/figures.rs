@@ -7,9 +7,10 @@ use dashpot_fit::{
     network::Kind as TestKind,
 };
 use dashpot_plot::{
-    Chart, FitChannel, FitQuantity, FitRow, FitSeries, Of, ReportFigure,
+    Chart, FitChannel, FitQuantity, FitRow, FitSeries, Of,
     figures::{CREEP, FitFigure, HISTORY, OSCILLATION, RELAXATION},
 };
+use dashpot_report::ReportFigure;
 
 use super::{Fitted, scene::FittedScene, target::Compared, words::rms};
 use crate::{

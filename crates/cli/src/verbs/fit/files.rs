@@ -1,6 +1,6 @@
 //! What `fit` writes: a scene into a file, or all that it says into a folder.
 
-use dashpot_plot::{Report, ReportFigure, Table};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     FitArguments, Fitted,
@@ -67,7 +67,7 @@ pub(super) fn write_fitted_scene(
     let drawn = fitted.fitted.as_ref();
     files.add(
         PAGE,
-        Report {
+        Page {
             title: title(&fitted.plan.scene).to_owned(),
             warnings: list(said::warnings(&fitted.plan.scene, &known).into_iter().chain(known)),
             verdict: fitted.verdict_lines(),
@@ -90,7 +90,7 @@ pub(super) fn write_model(files: &mut Staged<'_>, fitted: &Fitted<'_>) -> Result
     let own = vec!["dashpot".to_owned(), VERSION.to_owned()];
     files.add(
         PAGE,
-        Report {
+        Page {
             title: fitted.name().to_owned(),
             warnings: words::warnings(fitted),
             verdict: words::verdict(fitted),

@@ -2,7 +2,7 @@
 
 use dashpot_analysis::Missing;
 use dashpot_fit::network::{Convergence, Interval, Kind, NetworkFit, NoBand, Source};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use serde::Serialize;
 
 use super::{

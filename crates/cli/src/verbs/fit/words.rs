@@ -1,7 +1,7 @@
 //! What a fit says: tables and sentences.
 
 use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Range, RecordFit};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::{Fitted, asked::Measured};
 use crate::numbers::{quantity, share};

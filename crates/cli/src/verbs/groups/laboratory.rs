@@ -1,7 +1,7 @@
 //! A laboratory test.
 
 use dashpot_analysis::similarity::{Laboratory, Measured, Wish, measured, similar_settings};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::Scene;
 use serde::Serialize;
 

@@ -13,7 +13,7 @@ use dashpot_analysis::{
     similarity::{FourParameterImpact, Group, Groups, Quantity, Reference, SimilarityError},
 };
 use dashpot_network::{Network, parameters::Dimension};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Scene, write_scene};
 use serde::Serialize;
 

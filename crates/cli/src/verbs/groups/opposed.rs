@@ -5,7 +5,7 @@ use dashpot_analysis::{
     similarity::{Measured, Scale},
 };
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use serde::Serialize;
 
 use super::DIGITS;

@@ -4,7 +4,7 @@ use dashpot_analysis::similarity::{
     Alone, GroupPair, Measured, Similarity, SimilarityError, alone, measured, similar_settings,
 };
 use dashpot_network::Network;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::Scene;
 use serde::Serialize;
 

@@ -1,7 +1,7 @@
 //! The groups of the thesis.
 
 use dashpot_analysis::similarity::{FourParameterGroups, FourParameterImpact};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use serde::Serialize;
 
 use super::DIGITS;

@@ -2,7 +2,7 @@
 
 use dashpot_analysis::measured::Deviation;
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use serde::Serialize;
 
 use super::{Made, Units};

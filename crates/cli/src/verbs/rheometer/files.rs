@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use dashpot_analysis::rheometer::{LoadUnload, RheometerReport, Series};
 use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{
-    Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, ReportFigure, RheometerLine,
-    RheometerSeries,
+    Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
     figures::model::{LOSS_FACTOR, MODEL_FIGURES, SWEEP},
 };
+use dashpot_report::ReportFigure;
 use dashpot_rheology::MaxwellForm;
 
 use super::{Made, Tested, Units, beside::MeasuredLoop, page::page};

@@ -22,7 +22,7 @@ use dashpot_analysis::{
     },
 };
 use dashpot_network::parameters::Kind as _;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use serde::Serialize;
 
 use self::{
@@ -107,7 +107,7 @@ struct Tested {
     specimen: Specimen,
     tests: Vec<Made>,
     measured: Option<MeasuredLoop>,
-    plot: When,
+    plot: bool,
 }
 
 /// What is told of tests that differ in the values of their parameters alone.
@@ -231,7 +231,7 @@ pub(crate) fn rheometer(
         specimen,
         tests: made,
         measured,
-        plot: arguments.plot,
+        plot: arguments.plot.is_now(terminal.output.attended),
     };
     emit(&tested, arguments.json, folder, terminal)?;
     Ok(Status::Done)
@@ -302,7 +302,7 @@ impl Study for Tested {
                 show(text, table);
                 text.paragraphs(self.measured.iter().filter_map(|own| own.note.as_ref()));
             }
-            let is_plotted = text.is_plotted(self.plot);
+            let is_plotted = self.plot;
             for chart in files::charts(told.group, self.measured.as_ref(), units)
                 .into_iter()
                 .filter(|_| is_plotted)

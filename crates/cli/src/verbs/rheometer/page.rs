@@ -1,6 +1,6 @@
 //! The page of a model that was tested.
 
-use dashpot_plot::{Report, ReportFigure, Table};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     Tested,
@@ -9,7 +9,7 @@ use super::{
 use crate::output::VERSION;
 
 /// Everything that the tests say, on one page with these figures.
-pub(super) fn page(tested: &Tested, figures: Vec<ReportFigure>) -> Report {
+pub(super) fn page(tested: &Tested, figures: Vec<ReportFigure>) -> Page {
     let (units, common) = (tested.units, characteristics(&tested.tests));
     let simulated = tested.specimen.nonlinear();
     let simulated = simulated.map(|kind| format!("`{kind}` is not linear: the model is simulated"));
@@ -29,7 +29,7 @@ pub(super) fn page(tested: &Tested, figures: Vec<ReportFigure>) -> Report {
     let settings = settings.map(|(name, value)| vec![name.clone(), value.clone()]);
     let settings = Table::plain("Settings", settings);
     let verdict = simulated.into_iter().chain(characteristics);
-    Report {
+    Page {
         title: tested.word.clone(),
         warnings: Vec::new(),
         verdict: verdict.chain(missing(common, units)).collect(),

@@ -1,7 +1,7 @@
 //! What was found as tables and in words.
 
 use dashpot_analysis::rheometer::{Computation, Figure, RheometerReport, Setting, Specimen};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_rheology::{KelvinForm, MaxwellForm};
 use serde::Serialize;
 

@@ -3,7 +3,8 @@
 use dashpot_analysis::RunReport;
 use dashpot_dae::Signal;
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::{Of, Table};
+use dashpot_plot::Of;
+use dashpot_report::Table;
 use dashpot_scene::Scene;
 use dashpot_signal::{
     Analysis, Approach, Channel, Defect, Rating, Reading, Settings, Truth, Unrated,

@@ -1,7 +1,7 @@
 //! Outputs over time on demand: all of them as the CSV has them, or their values at single times.
 
 use dashpot_analysis::{RunReport, table_at};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::Scene;
 use serde::Serialize;
 

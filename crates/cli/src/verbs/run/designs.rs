@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use dashpot_analysis::{Judged, Judgement, Limit, RunReport};
-use dashpot_plot::{Report, RunSeries, Table, figures::FORCE_TIME};
+use dashpot_plot::{RunSeries, figures::FORCE_TIME};
+use dashpot_report::{Page, Table};
 use dashpot_scene::Scene;
 use serde::Serialize;
 
@@ -22,7 +23,6 @@ use super::{
     verdict::Line,
 };
 use crate::{
-    args::When,
     error::{CliError, is_unit},
     folder::Staged,
     input::{Input, title},
@@ -160,7 +160,7 @@ impl Design {
 /// Designs side by side, each by its best run.
 pub(super) struct Designs {
     pub(super) designs: Vec<Design>,
-    pub(super) plot: When,
+    pub(super) plot: bool,
 }
 
 impl Designs {
@@ -349,7 +349,7 @@ impl Study for Designs {
                 text.labelled("", LABELS, &format!("{}: {cell}", own.name));
             }
         }
-        if text.is_plotted(self.plot) {
+        if self.plot {
             let series = self.best().map(|(_, run)| curves(run, PLOT_POINTS)).collect();
             let figure = self.designs.first().map_or(&FORCE_TIME, |own| own.answer.plotted());
             let chart = figure.chart(&self.as_designs(series));
@@ -408,7 +408,7 @@ impl Study for Designs {
         } else {
             Vec::new()
         };
-        let page = Report {
+        let page = Page {
             title: format!("{} designs side by side", self.designs.len()),
             warnings: self
                 .of_each(|own| said::warnings(&own.answer.scene, &own.answer.warnings()))
@@ -437,7 +437,7 @@ impl Study for Designs {
             figures,
             details: [self.solved()].into_iter().chain(self.settings()).collect(),
             scene_text: self.scene_texts(),
-            ..Report::default()
+            ..Page::default()
         };
         if has(Written::Page) {
             files.add(files::PAGE, page.html())?;

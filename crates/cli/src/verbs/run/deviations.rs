@@ -1,7 +1,8 @@
 //! How far runs are from what was measured: in tables, in words, and for programs.
 
 use dashpot_analysis::RunReport;
-use dashpot_plot::{MeasuredSeries, Table};
+use dashpot_plot::MeasuredSeries;
+use dashpot_report::Table;
 use dashpot_signal::Cfc;
 use serde::Serialize;
 

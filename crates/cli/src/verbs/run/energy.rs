@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{Ledger, RunReport};
 use dashpot_network::{DriveOutputs, Source};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::numbers::{Unit, quantity, share};
 

@@ -6,7 +6,8 @@ use clap::ValueEnum;
 use dashpot_analysis::{
     EventReport, RunReport, regular_times, resolving_times, table_at, touching,
 };
-use dashpot_plot::{Report, ReportFigure, RunSeries, Table, figures::FIGURES};
+use dashpot_plot::{RunSeries, figures::FIGURES};
+use dashpot_report::{Page, ReportFigure, Table};
 use dashpot_scene::RunSettings;
 
 use super::{
@@ -110,7 +111,7 @@ fn write_figures(files: &mut Staged<'_>, answer: &Answer) -> Result<(), CliError
     }
     let figures = add_figures(files, &series, &answer.wishes.written)?;
     if has(Written::Page) {
-        files.add(PAGE, Report { network: drawn, figures, ..page(answer) }.html())?;
+        files.add(PAGE, Page { network: drawn, figures, ..page(answer) }.html())?;
     }
     Ok(())
 }
@@ -181,7 +182,7 @@ pub(super) fn write_events<'r>(
 }
 
 /// The page without its drawings.
-fn page(answer: &Answer) -> Report {
+fn page(answer: &Answer) -> Page {
     let mut tables = vec![measures_table(&answer.side())];
     tables.extend(answer.best().and_then(scatter::table));
     let by_curve = answer.by_curve();
@@ -200,14 +201,14 @@ fn page(answer: &Answer) -> Report {
     let verdict = verdict(answer).into_iter();
     let lines = verdict.map(|line| format!("{}: {}", line.label, line.text));
     let warnings = answer.warnings();
-    Report {
+    Page {
         title: title(&answer.scene).to_owned(),
         warnings: failed.chain(said::warnings(&answer.scene, &warnings)).chain(warnings).collect(),
         verdict: changes.chain(lines).collect(),
         tables,
         details,
         scene_text: resolved_scene::text(&answer.scene, &answer.changes),
-        ..Report::default()
+        ..Page::default()
     }
 }
 

@@ -7,7 +7,7 @@ use dashpot_analysis::{
     measures::{Hic, Hic15, Hic36, PeakStrain, STANDARD_GRAVITY, SeverityIndex},
 };
 use dashpot_network::parameters::{Kind as _, Value, WindowWish};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::Answer;
 use crate::{

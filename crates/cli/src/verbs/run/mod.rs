@@ -181,7 +181,7 @@ struct Answer {
     pub(super) beside: Vec<Vec<Beside>>,
     /// What no pad can beat, where that is asked for.
     pub(super) floor: Option<floor::Told>,
-    plot: When,
+    plot: bool,
     /// What is shown and written besides.
     pub(super) wishes: Wishes,
 }
@@ -311,7 +311,8 @@ pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status
     let is_kept = answers.iter().all(|own| limits::all_pass(&own.answer.runs));
     let own = if arguments.enforce && !is_kept { Status::LimitNotKept } else { Status::Done };
     if answers.len() > 1 {
-        let designs = Designs { designs: answers, plot: arguments.plot };
+        let designs =
+            Designs { designs: answers, plot: arguments.plot.is_now(terminal.output.attended) };
         if arguments.json || designs.is_solved() {
             let folder = folder.filter(|_| designs.is_solved());
             emit(&designs, arguments.json, folder, terminal)?;
@@ -409,7 +410,8 @@ fn solve_all(
             Err(error) => failed.push((own.method.name(), CliError::Run(error))),
         }
     }
-    let (changes, plot) = (Changes::of(arguments, set), arguments.plot);
+    let (changes, plot) =
+        (Changes::of(arguments, set), arguments.plot.is_now(terminal.output.attended));
     let wishes = Wishes::of(arguments);
     let floor =
         options.floor.then(|| floor::Told::of(&scene.network, scene.run.duration, &scene.limits));
@@ -429,7 +431,7 @@ impl Study for Answer {
         for line in verdict(self) {
             text.labelled(line.label, LABELS, &line.text);
         }
-        if let Some(best) = self.best().filter(|_| text.is_plotted(self.plot)) {
+        if let Some(best) = self.best().filter(|_| self.plot) {
             let chart = self.plotted().chart(&[self.with_measured(curves(best, PLOT_POINTS))]);
             text.blank();
             text.lines(&indented(&chart.text(WIDTH - 4, PLOT_HEIGHT)));

@@ -8,7 +8,7 @@ use dashpot_analysis::{
     Unevaluated,
     sweep::{Estimates, Grid, ScenePoint, SweepError, SweepOptions, Watch, columns, sweep},
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Change, Drawn, Posed, ReadOptions, Sample, Scene, Tunables, units::si_unit};
 use dashpot_units::percent;
 

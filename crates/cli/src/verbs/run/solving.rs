@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{RunReport, Stop};
 use dashpot_dae::Direction;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{
     NamedValue,
     units::{parse_quantity, si_unit},

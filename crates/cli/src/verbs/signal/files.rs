@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::{Chart, Marker, Pattern, Report, ReportFigure, Series, Stroke, Table};
+use dashpot_plot::{Chart, Marker, Pattern, Series, Stroke};
+use dashpot_report::{Page, ReportFigure, Table};
 use dashpot_signal::{Analysis, Band, Measure};
 use dashpot_units::si_unit;
 
@@ -228,7 +229,7 @@ fn shown(tests: &[&Analysis]) -> (f64, f64) {
     all.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
 }
 
-fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {
+fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Page {
     let names: Vec<&str> = signals.groups().iter().map(|own| own.name).collect();
     let verdicts = signals.verdicts();
     let verdict = verdicts.iter().map(|own| {
@@ -241,7 +242,7 @@ fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {
     let of_all = groups.iter().map(repeats);
     let treated = signals.all.iter().map(|own| Table::list(heading(own), treatment(&own.analysis)));
     let version = Table::plain("Settings", [vec!["dashpot".to_owned(), VERSION.to_owned()]]);
-    Report {
+    Page {
         title: format!("Measured: {}", names.join(", ")),
         warnings: words::warnings(signals),
         verdict: verdict.collect(),
@@ -251,6 +252,6 @@ fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Report {
             .chain([version, Table::list("Notes", signals.notes.iter().cloned())])
             .filter(|own| !own.rows.is_empty())
             .collect(),
-        ..Report::default()
+        ..Page::default()
     }
 }

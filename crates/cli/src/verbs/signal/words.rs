@@ -2,7 +2,7 @@
 
 use dashpot_analysis::{Bound, Judgement, Reason, measures::STANDARD_GRAVITY};
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_signal::{
     Analysis, Axis, CONTACT_LEVEL, Channel, Measure, Part, Reading, Repeated, Truth,
 };

@@ -1,7 +1,7 @@
 //! The best designs of a sweep: those that keep all limits by the largest margin.
 
 use dashpot_analysis::Judgement;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::{
     Swept,

@@ -6,7 +6,7 @@ use dashpot_analysis::{
     Judgement,
     sweep::{Column, SweepReport},
 };
-use dashpot_plot::ReportFigure;
+use dashpot_report::ReportFigure;
 
 use super::{
     Swept, Varied,

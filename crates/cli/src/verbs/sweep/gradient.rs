@@ -8,7 +8,7 @@ use dashpot_analysis::{
     },
     sweep::{Grid, ScenePoint, SweepError},
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Scene, TunableFault, Tunables};
 use dashpot_units::{Dimension, si_unit, significant};
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! The page of a sweep.
 
 use dashpot_analysis::Judgement;
-use dashpot_plot::{Report, ReportFigure, Table};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     Form, Swept,
@@ -17,7 +17,7 @@ use crate::{input::title, numbers::counted, origin, output::list, said, sketch};
 const DIGITS: usize = 4;
 
 /// Everything that a sweep says, on one page with these figures.
-pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
+pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Page {
     let (limits, best) = (limits(swept), best(swept));
     let tables = [
         Table::list("What varies", swept.varied.in_words()),
@@ -29,7 +29,7 @@ pub(super) fn page(swept: &Swept, figures: Vec<ReportFigure>) -> Report {
     ];
     let details = [settings(swept), Table::list("How it was solved", words::solving(swept))];
     let has_rows = |table: &Table| !table.rows.is_empty();
-    Report {
+    Page {
         title: title(&swept.scene).to_owned(),
         warnings: list(said::warnings(&swept.scene, &[]).into_iter().chain(words::warned(swept))),
         verdict: verdict(swept, &best),

@@ -2,7 +2,7 @@
 //! digits that their errors justify.
 
 use dashpot_analysis::{Judgement, sweep::SweepReport};
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use super::{Swept, figures, words};
 use crate::{

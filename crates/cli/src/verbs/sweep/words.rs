@@ -5,7 +5,7 @@ use dashpot_analysis::{
     sweep::{Column, Estimates, Grid, PartialOfSweep, SweepReport, SweepWarning},
 };
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{Remark, Variation, units::si_unit};
 
 use super::{Form, SweepArguments, Swept, Varied, kept, unmoved::unmoved};

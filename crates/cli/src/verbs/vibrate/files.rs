@@ -3,7 +3,8 @@
 use dashpot_analysis::vibration::{
     DriveKind, Quantity, Sweep, Swing, Transmission, VibrationWarning,
 };
-use dashpot_plot::{Report, ReportFigure, Table, VibrationCurve, VibrationSeries};
+use dashpot_plot::{VibrationCurve, VibrationSeries};
+use dashpot_report::{Page, ReportFigure, Table};
 
 use super::{
     DIGITS, Shaken,
@@ -73,7 +74,7 @@ fn figures(sweep: &Sweep) -> Result<Vec<(String, ReportFigure)>, CliError> {
     Ok(figures)
 }
 
-fn page(shaken: &Shaken, figures: &[(String, ReportFigure)]) -> Report {
+fn page(shaken: &Shaken, figures: &[(String, ReportFigure)]) -> Page {
     let Shaken { scene, sweep, .. } = shaken;
     let of_steady = shaken.steady.iter();
     let warnings = of_steady.clone().flat_map(|own| &own.warnings).map(ToString::to_string);
@@ -81,7 +82,7 @@ fn page(shaken: &Shaken, figures: &[(String, ReportFigure)]) -> Report {
     let notes = notes.chain(range_notes(sweep));
     let notes = notes.chain(sweep.notes.iter().map(VibrationWarning::to_string));
     let tables = shaken.steady_tables().into_iter().chain([modes(sweep), resonances(sweep)]);
-    Report {
+    Page {
         title: title(scene).to_owned(),
         warnings: list(warnings),
         verdict: [drive(sweep)].into_iter().chain(notes).collect(),

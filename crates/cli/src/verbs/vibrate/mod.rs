@@ -11,7 +11,7 @@ use dashpot_analysis::vibration::{
     VibrationWarning,
 };
 use dashpot_network::parameters::Dimension;
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::{
     Scene,
     units::{Quantity, parse_quantity},
@@ -93,7 +93,7 @@ struct Shaken {
     steady: Option<Steady>,
     /// Whether it is said what is looked at.
     is_chosen: bool,
-    plot: When,
+    plot: bool,
 }
 
 impl Shaken {
@@ -134,7 +134,13 @@ pub(crate) fn vibrate(
         terminal.warn(&warning.to_string());
     }
     let is_chosen = !arguments.of.is_empty();
-    let found = Shaken { scene, sweep, steady, is_chosen, plot: arguments.plot };
+    let found = Shaken {
+        scene,
+        sweep,
+        steady,
+        is_chosen,
+        plot: arguments.plot.is_now(terminal.output.attended),
+    };
     emit(&found, arguments.json, folder, terminal)?;
     Ok(Status::Done)
 }
@@ -176,7 +182,7 @@ impl Study for Shaken {
                 left_out.map(|left_out| format!("{left_out}; `--out` writes all of them")),
             );
         }
-        if text.is_plotted(self.plot) {
+        if self.plot {
             files::series(sweep).iter().for_each(|own| text.chart(&own.ratio_chart(), PLOT_HEIGHT));
         }
     }

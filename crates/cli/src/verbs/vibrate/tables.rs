@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use dashpot_analysis::vibration::{
     Drive, DriveKind, QUANTITIES, Quantity, Steady, Sweep, Swing, Transmission,
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 
 use crate::{
     numbers::{Unit, bound, quantity},

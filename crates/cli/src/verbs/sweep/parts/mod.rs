@@ -12,7 +12,7 @@ use dashpot_analysis::{
         Column, Estimates, Grid, Pose, SweepError, SweepOptions, points_of_shard, sweep_in_parts,
     },
 };
-use dashpot_plot::Table;
+use dashpot_report::Table;
 use dashpot_scene::Scene;
 use serde::Serialize;
 

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use dashpot_plot::Table;
+use crate::Table;
 
-use crate::terminal::WIDTH;
-
+/// Columns of a terminal's text.
+pub const WIDTH: usize = 80;
 /// Blanks between columns.
 const GAP: usize = 2;
 /// Columns that a wrapped column has at least.
@@ -13,7 +13,7 @@ const LEAST_ROOM: usize = 20;
 
 /// The table as lines: its header, if any, and its rows; numbers are set to the right. Headings of several
 /// lines stand on the rows.
-pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
+pub fn table(table: &Table) -> (String, Vec<String>) {
     let count = table.rows.iter().map(Vec::len).fold(table.header.len(), usize::max);
     let cells = |column: usize| {
         let rows = table.rows.iter().filter_map(move |row| row.get(column));
@@ -22,7 +22,8 @@ pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
     let widths: Vec<usize> = (0..count)
         .map(|column| cells(column).flat_map(|cell| cell.lines()).map(columns).max().unwrap_or(0))
         .collect();
-    let right: Vec<bool> = (0..count).map(|column| is_numeric(table, column)).collect();
+    let right: Vec<bool> =
+        (0..count).map(|column| column > 0 && table.is_numeric(column)).collect();
     let line = |row: &Vec<String>| {
         let mut text = String::new();
         for (column, cell) in row.iter().enumerate() {
@@ -47,13 +48,13 @@ pub(crate) fn table(table: &Table) -> (String, Vec<String>) {
 }
 
 /// Columns that the table takes as text.
-pub(crate) fn width(table: &Table) -> usize {
+pub fn width(table: &Table) -> usize {
     let (header, rows) = self::table(table);
     header.lines().chain(rows.iter().map(String::as_str)).map(columns).max().unwrap_or(0)
 }
 
 /// `text` broken at blanks into lines of at most `width` columns, but not at those that are no-break spaces.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     wrapped_after(text, width, width)
 }
 
@@ -76,12 +77,12 @@ fn wrapped_after(text: &str, first: usize, others: usize) -> Vec<String> {
 }
 
 /// `text` as lines of at most `width` columns, all but the first indented by two.
-pub(crate) fn hanging(text: &str, width: usize) -> String {
+pub fn hanging(text: &str, width: usize) -> String {
     wrapped_after(text, width, width.saturating_sub(GAP)).join("\n  ")
 }
 
 /// A line in lines of at most the width of a terminal, the first with its own indent.
-pub(crate) fn indented_line(line: &str) -> String {
+pub fn indented_line(line: &str) -> String {
     let text = line.trim_start();
     let indent = line.len() - text.len();
     line[..indent].to_owned() + &hanging(text, WIDTH - indent.min(WIDTH / 2))
@@ -89,7 +90,7 @@ pub(crate) fn indented_line(line: &str) -> String {
 
 /// The table as tables of at most `width` columns, where its first columns, `lead` of them, stand before each part of
 /// the others; where they take more than half of the width, the numbers of the rows do.
-pub(crate) fn side_by_side(table: &Table, lead: usize, width: usize) -> Vec<Table> {
+pub fn side_by_side(table: &Table, lead: usize, width: usize) -> Vec<Table> {
     if self::width(table) <= width {
         return vec![table.clone()];
     }
@@ -139,7 +140,7 @@ fn numbered(table: &Table) -> Table {
 }
 
 /// Header and rows of a table as lines of at most `width` columns: where they do not fit, the last column is wrapped.
-pub(crate) fn fitted(table: &Table, width: usize) -> (String, Vec<String>) {
+pub fn fitted(table: &Table, width: usize) -> (String, Vec<String>) {
     let count = table.rows.iter().map(Vec::len).max().unwrap_or(0);
     if count < 2 || self::width(table) <= width {
         return self::table(table);
@@ -169,7 +170,7 @@ pub(crate) fn fitted(table: &Table, width: usize) -> (String, Vec<String>) {
 }
 
 /// A label and a text beside it, wrapped; both indented by two columns.
-pub(crate) fn labelled(label: &str, label_width: usize, text: &str, width: usize) -> String {
+pub fn labelled(label: &str, label_width: usize, text: &str, width: usize) -> String {
     let room = width.saturating_sub(label_width + 2 + GAP).max(LEAST_ROOM);
     let mut shown = String::new();
     for (at, line) in wrapped(text, room).iter().enumerate() {
@@ -182,30 +183,20 @@ pub(crate) fn labelled(label: &str, label_width: usize, text: &str, width: usize
 }
 
 /// A text with a capital first letter.
-pub(crate) fn capital(text: &str) -> String {
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Every line indented by two columns.
-pub(crate) fn indented(text: &str) -> String {
+pub fn indented(text: &str) -> String {
     let line = |line: &str| if line.is_empty() { "\n".to_owned() } else { format!("  {line}\n") };
     text.lines().map(line).collect()
 }
 
 /// The columns that a text takes.
-pub(crate) fn columns(text: &str) -> usize {
+pub fn columns(text: &str) -> usize {
     text.chars().count()
-}
-
-fn is_numeric(table: &Table, column: usize) -> bool {
-    let cells = table.rows.iter().filter_map(|row| row.get(column));
-    let mut cells = cells.filter(|cell| !cell.is_empty() && cell.as_str() != "–").peekable();
-    let is_number = |cell: &String| {
-        let digits = cell.trim_start_matches(['-', '±', '<', ' ']);
-        digits.starts_with(|first: char| first.is_ascii_digit())
-    };
-    column > 0 && cells.peek().is_some() && cells.all(is_number)
 }
 
 #[cfg(test)]

@@ -3,39 +3,39 @@
 use std::time::Duration;
 
 use dashpot_units::{Dimension, format_quantity, percent};
-pub(crate) use dashpot_units::{Unit, quantity, rounded, significant};
+pub use dashpot_units::{Unit, quantity, rounded, significant};
 
 /// More significant digits are never shown.
-pub(crate) const MOST_DIGITS: usize = 7;
+pub const MOST_DIGITS: usize = 7;
 /// Digits of a number whose error is not known.
 const UNKNOWN: usize = 4;
 /// Fewer digits are never shown.
 const FEWEST: usize = 2;
 
 /// A constant of a scene: without zeros at its end.
-pub(crate) fn constant(value: f64, si: &str) -> String {
+pub fn constant(value: f64, si: &str) -> String {
     rounded(value, si, MOST_DIGITS)
 }
 
 /// A number of things: `1 design`, `2 designs`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
+pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A time that a computer took.
-pub(crate) fn duration(time: Duration) -> String {
+pub fn duration(time: Duration) -> String {
     format_quantity(time.as_secs_f64(), Dimension::TIME, 2)
 }
 
 /// A tolerance as a power of ten, to three significant digits without zeros at the end.
-pub(crate) fn tolerance(value: f64) -> String {
+pub fn tolerance(value: f64) -> String {
     let rounded = format!("{value:.2e}");
     rounded.parse::<f64>().map_or(rounded, |value| format!("{value:e}"))
 }
 
 /// How many significant digits of `value` its absolute error justifies, at most `most`: the unit of
 /// the last digit is not larger than the error, so that rounding stays within it.
-pub(crate) fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
+pub fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
     let Some(error) = error else { return UNKNOWN.min(most) };
     let justified = (value.abs().log10().floor() + 1.0 - error.log10()).ceil();
     if justified.is_nan() {
@@ -51,13 +51,13 @@ pub(crate) fn digits(value: f64, error: Option<f64>, most: usize) -> usize {
 }
 
 /// A share in percent to two digits with its sign.
-pub(crate) fn percent_signed(share: f64) -> String {
+pub fn percent_signed(share: f64) -> String {
     let text = percent(share.abs(), 2);
     if share < 0.0 { format!("−{text}") } else { text }
 }
 
 /// An error relative to its value in percent, rounded up to one digit.
-pub(crate) fn bound(relative: f64) -> String {
+pub fn bound(relative: f64) -> String {
     if !relative.is_finite() {
         return "unknown".to_owned();
     }
@@ -71,21 +71,22 @@ pub(crate) fn bound(relative: f64) -> String {
 }
 
 /// A relative difference in percent: to two digits, or where it is tiny rounded up to one.
-pub(crate) fn apart(relative: f64) -> String {
+pub fn apart(relative: f64) -> String {
     if relative >= 1e-4 { share(relative) } else { bound(relative) }
 }
 
 /// A share in percent to two digits.
-pub(crate) fn share(relative: f64) -> String {
+pub fn share(relative: f64) -> String {
     percent(relative, 2)
 }
 
-pub(crate) fn estimate(formula: &str, value: f64) -> String {
+/// A formula with its estimated value, to two digits.
+pub fn estimate(formula: &str, value: f64) -> String {
     format!("{formula} = {}", estimated(value))
 }
 
 /// An estimate to two digits; what is not positive is zero.
-pub(crate) fn estimated(value: f64) -> String {
+pub fn estimated(value: f64) -> String {
     if value > 0.0 { significant(value, 2) } else { "0".to_owned() }
 }
 

@@ -1,20 +1,22 @@
-//! Reports: one HTML page that holds everything a run says.
+//! One HTML page that holds everything a result says.
 
 use std::fmt::Write as _;
 
-use crate::{Chart, Map, PlotError, text_metrics::escape};
+use dashpot_plot::{Chart, Map, PlotError, escape};
+
+use crate::Table;
 
 /// The style sheet; colours of the theme are turned for dark pages there.
 const STYLE: &str = include_str!("style.css");
 
-/// Everything a run says, as texts, tables and drawings.
+/// Everything a result says, as texts, tables and drawings, in the order of a page.
 ///
 /// # Examples
 ///
 /// ```
-/// use dashpot_plot::{Report, Table};
+/// use dashpot_report::{Page, Table};
 ///
-/// let report = Report {
+/// let report = Page {
 ///     title: "Head on a padded panel".into(),
 ///     verdict: vec!["peak force 38.4 kN at 0.98 ms".into()],
 ///     warnings: vec!["from 7.43 ms the padding is in tension: separation is off".into()],
@@ -23,14 +25,14 @@ const STYLE: &str = include_str!("style.css");
 ///         header: vec!["measure".into(), "exact".into()],
 ///         rows: vec![vec!["padding.peak-force".into(), "38.359".into()]],
 ///     }],
-///     ..Report::default()
+///     ..Page::default()
 /// };
 /// let page = report.html();
 /// assert!(page.starts_with("<!DOCTYPE html>"));
 /// assert!(page.find("pulls") < page.find("38.359"));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Report {
+pub struct Page {
     /// Title of the page.
     pub title: String,
     /// What a reader must know before any number.
@@ -47,50 +49,6 @@ pub struct Report {
     pub details: Vec<Table>,
     /// The scene as it was read.
     pub scene_text: String,
-}
-
-/// A table of texts.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Table {
-    /// Heading.
-    pub caption: String,
-    /// Column headings; empty for none.
-    pub header: Vec<String>,
-    /// Rows, which may be shorter than the header.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    /// A table with these column headings. A column in which nothing stands is left out, unless it is the first.
-    pub fn new(
-        caption: impl Into<String>,
-        header: impl IntoIterator<Item: ToString>,
-        rows: impl IntoIterator<Item = Vec<String>>,
-    ) -> Self {
-        let mut own = Self::plain(caption, rows);
-        own.header = header.into_iter().map(|own| own.to_string()).collect();
-        let is_filled =
-            |row: &Vec<String>, at: usize| row.get(at).is_some_and(|cell| !cell.is_empty());
-        for at in (1..own.header.len()).rev() {
-            if own.rows.is_empty() || own.rows.iter().any(|row| is_filled(row, at)) {
-                continue;
-            }
-            own.header.remove(at);
-            own.rows.iter_mut().filter(|row| at < row.len()).for_each(|row| drop(row.remove(at)));
-        }
-        own
-    }
-
-    /// A table without headings.
-    pub fn plain(caption: impl Into<String>, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
-        let rows = rows.into_iter().collect();
-        Self { caption: caption.into(), header: Vec::new(), rows }
-    }
-
-    /// A table of one column without a heading.
-    pub fn list(caption: impl Into<String>, lines: impl IntoIterator<Item = String>) -> Self {
-        Self::plain(caption, lines.into_iter().map(|line| vec![line]))
-    }
 }
 
 /// A drawing with its caption.
@@ -126,7 +84,16 @@ impl ReportFigure {
         Self { caption: caption.into(), svg, narrow: String::new() }
     }
 
-    fn html(&self) -> String {
+    /// The drawing of a network, which its caption names to readers who do not see it.
+    pub(crate) fn network(&self) -> String {
+        format!(
+            "<figure class=\"sketch\" aria-label=\"{}\"><div class=\"drawing\">\n{}</div></figure>\n",
+            escape(&self.caption),
+            self.svg
+        )
+    }
+
+    pub(crate) fn html(&self) -> String {
         let mut html = if self.narrow.is_empty() {
             format!("<figure class=\"sketch\"><div class=\"drawing\">\n{}</div>", self.svg)
         } else {
@@ -142,44 +109,43 @@ impl ReportFigure {
     }
 }
 
-impl Report {
-    /// The report as one page without script and without any outer resource. All texts are escaped; what stands
-    /// between two backticks in them is set as code.
+impl Page {
+    /// One page without script and without any outer resource. All texts are escaped; what stands between two backticks
+    /// in them is set as code.
     pub fn html(&self) -> String {
-        let title = escape(&self.title);
-        let mut page = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-             <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
-        );
-        page += &list("warnings", &self.warnings);
-        page += &list("verdict", &self.verdict);
-        if let Some(network) = &self.network {
-            let _ = writeln!(
-                page,
-                "<figure class=\"sketch\" aria-label=\"{}\"><div class=\"drawing\">\n{}</div></figure>",
-                escape(&network.caption),
-                network.svg
-            );
-        }
-        self.tables.iter().for_each(|table| page += &table.html());
-        self.figures.iter().for_each(|figure| page += &figure.html());
-        self.details.iter().for_each(|table| page += &table.html());
-        if !self.scene_text.is_empty() {
-            let _ = writeln!(
-                page,
-                "<section><h2>Scene</h2><pre>{}</pre></section>",
-                verbatim(&self.scene_text)
-            );
-        }
-        page += "</main>\n</body>\n</html>\n";
-        page
+        let tables = self.tables.iter().map(Table::html);
+        let figures = self.figures.iter().map(ReportFigure::html);
+        let details = self.details.iter().map(Table::html);
+        let parts = [list("warnings", &self.warnings), list("verdict", &self.verdict)];
+        let network = self.network.iter().map(ReportFigure::network);
+        let parts = parts.into_iter().chain(network).chain(tables).chain(figures).chain(details);
+        whole(&self.title, parts, &self.scene_text)
     }
 }
 
+/// A page of these parts below its title, with the text of a scene at its end where there is one.
+pub(crate) fn whole(
+    title: &str,
+    parts: impl IntoIterator<Item = String>,
+    scene_text: &str,
+) -> String {
+    let title = escape(title);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"color-scheme\" content=\"light dark\"/>\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+    );
+    page.extend(parts);
+    if !scene_text.is_empty() {
+        let text = verbatim(scene_text);
+        let _ = writeln!(page, "<section><h2>Scene</h2><pre>{text}</pre></section>");
+    }
+    page + "</main>\n</body>\n</html>\n"
+}
+
 impl Table {
-    fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let columns = self.rows.iter().map(Vec::len).fold(self.header.len(), usize::max);
         let classes: Vec<&str> = (0..columns)
             .map(|c| if self.is_numeric(c) { " class=\"number\"" } else { "" })
@@ -192,8 +158,11 @@ impl Table {
             }
             html + "</tr>\n"
         };
-        let mut html =
-            format!("<section><h2>{}</h2>\n<div class=\"table\"><table>\n", phrase(&self.caption));
+        let mut html = String::from("<section>");
+        if !self.caption.is_empty() {
+            let _ = write!(html, "<h2>{}</h2>", phrase(&self.caption));
+        }
+        html += "\n<div class=\"table\"><table>\n";
         if !self.header.is_empty() {
             let _ = writeln!(html, "<thead>{}</thead>", row(&self.header, "th"));
         }
@@ -201,20 +170,9 @@ impl Table {
         self.rows.iter().for_each(|cells| html += &row(cells, "td"));
         html + "</tbody>\n</table></div></section>\n"
     }
-
-    /// Whether a column holds numbers only, which are set to the right.
-    fn is_numeric(&self, column: usize) -> bool {
-        let cells = self.rows.iter().filter_map(|row| row.get(column));
-        let mut cells = cells.filter(|cell| !cell.is_empty()).peekable();
-        let is_number = |cell: &String| {
-            let digits = cell.trim_start_matches(['-', '−', '+', '±', '<', '≤', ' ']);
-            digits.starts_with(|c: char| c.is_ascii_digit()) || matches!(cell.as_str(), "–" | "—")
-        };
-        cells.peek().is_some() && cells.all(is_number)
-    }
 }
 
-fn list(class: &str, lines: &[String]) -> String {
+pub(crate) fn list(class: &str, lines: &[String]) -> String {
     if lines.is_empty() {
         return String::new();
     }
@@ -254,20 +212,22 @@ fn verbatim(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use dashpot_plot::{Series, Sketch, page_colours};
+
     use super::*;
-    use crate::figures::{FIGURES, tests::runs};
-    use crate::sketch::tests::tangled;
-    use crate::theme;
     use crate::well_formed::assert_well_formed;
 
-    fn report() -> Report {
+    const FIGURES: [&str; 2] = ["Force over time", "Acceleration over time"];
+
+    fn report() -> Page {
         let row = |cells: &[&str]| cells.iter().map(|c| (*c).to_owned()).collect::<Vec<_>>();
-        let network = ReportFigure::of_sketch("Network", tangled().svg());
-        let figures = FIGURES.iter().map(|figure| ReportFigure {
-            caption: figure.title.into(),
-            ..ReportFigure::of(&figure.chart(&runs())).unwrap()
+        let network = ReportFigure::of_sketch("Network", Sketch::default().svg());
+        let figures = FIGURES.iter().map(|title| {
+            let series = vec![Series::new("padding", vec![(0.0, 0.0), (1.0, 2.0)])];
+            let chart = Chart { title: (*title).to_owned(), series, ..Chart::default() };
+            ReportFigure { caption: (*title).to_owned(), ..ReportFigure::of(&chart).unwrap() }
         });
-        Report {
+        Page {
             title: "Head <of 10 kg> & panel".into(),
             warnings: vec!["from 7.43 ms the padding is in tension: separation is off".into()],
             verdict: row(&["peak force 38.4 kN at 0.98 ms, 391 g", "deepest 17.5 mm, 2.5 mm left"]),
@@ -335,8 +295,8 @@ mod tests {
 
     #[test]
     fn the_style_sheet_turns_every_colour_of_the_theme() {
-        for colour in [theme::INK, theme::FAINT, theme::GRID, theme::PAPER, theme::FILL] {
-            assert!(STYLE.contains(&colour.hex()), "{}", colour.hex());
+        for colour in page_colours() {
+            assert!(STYLE.contains(&colour), "{colour}");
         }
     }
 }

@@ -1,8 +1,6 @@
 //! What goes out: every verb states its result once as a [`Study`], and [`emit`] brings it to people,
 //! to programs, and into a folder.
 
-mod text;
-
 use std::io::{self, Write};
 
 use dashpot_scene::{guarded, text_cell};
@@ -16,7 +14,7 @@ use crate::{
     terminal::{Terminal, note, print, print_data},
 };
 
-pub(crate) use text::Text;
+pub(crate) use dashpot_report::Text;
 
 /// Writes a heading and rows; a cell without a value is blank. A text that a sheet would take for a formula is guarded
 /// in cells as in headings; a number stays one.
