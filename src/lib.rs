@@ -43,6 +43,7 @@ pub use dashpot_report as report;
 pub use dashpot_rheology as rheology;
 pub use dashpot_scene as scene;
 pub use dashpot_signal as signal;
+pub use dashpot_studies as studies;
 pub use dashpot_thesis as thesis;
 pub use dashpot_units as units;
 

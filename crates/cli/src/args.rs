@@ -16,6 +16,7 @@ use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
+use dashpot_studies::assignment;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -28,12 +29,15 @@ use crate::{
 pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
      has one model; FILE:NODE,NODE for the response of a network without moving masses";
 
+/// What may stand for a scene.
+pub(crate) const SCENE: &str = "File of the scene, `-` for standard input, or a built-in scene (reference, \
+     reference-stiff, reference-gravity) [default: reference]";
+
 /// Which scene.
 #[derive(Debug, Clone, Args, Serialize, Deserialize)]
 pub(crate) struct SceneArguments {
-    /// File of the scene, `-` for standard input, or a built-in scene (reference,
-    /// reference-stiff, reference-gravity) [default: reference].
-    #[arg(value_name = "SCENE")]
+    /// The scene.
+    #[arg(value_name = "SCENE", help = SCENE)]
     pub(crate) scene: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) values: ValueArguments,
@@ -258,14 +262,6 @@ pub(crate) fn sentences(error: &clap::Error) -> (String, Option<String>) {
         .rev()
         .collect();
     (told.join(" "), (!advice.is_empty()).then(|| advice.join("; ")))
-}
-
-pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.rsplit_once('=').unwrap_or((text, ""));
-    if name.trim().is_empty() || value.trim().is_empty() {
-        return Err("write a name, `=` and a value, such as \"K=25 MN/m\"".to_owned());
-    }
-    Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
 pub(crate) fn share(text: &str) -> Result<f64, String> {

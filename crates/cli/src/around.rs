@@ -3,8 +3,9 @@
 use dashpot_analysis::{SolveSettings, sweep::ScenePoint};
 use dashpot_scene::{Sample, Scene, Tunables, read};
 
+use crate::input::AsCommanded as _;
 use crate::{
-    error::CliError,
+    error::{CliError, StudyError},
     input::Input,
     varied::Varied,
     verbs::run::scatter::{self, ScatterArguments},
@@ -27,7 +28,7 @@ impl Around {
         arguments: ScatterArguments,
         beside: Option<&Sample>,
     ) -> Result<Option<Self>, CliError> {
-        let scene = read(text, &input.options(set)).map_err(CliError::Scene)?.value;
+        let scene = read(text, &input.options(set)).map_err(StudyError::Scene)?.value;
         let plain = scatter::plainly_set(&scene, set);
         let sample = scatter::drawn(&scene, arguments, &plain, beside)?;
         Ok(sample.map(|sample| Self { scene, sample, plain }))

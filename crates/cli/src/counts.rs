@@ -5,7 +5,7 @@ use std::{
     num::NonZero,
 };
 
-use crate::error::CliError;
+use crate::error::{CliError, StudyError};
 
 /// The least and the largest number of something that may be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,8 +32,6 @@ pub(crate) const CURVES: Count = Count::new(1, 200);
 pub(crate) const CURVE_POINTS: Count = Count::new(1, 10_000);
 pub(crate) const SHARDS: Count = Count::new(1, 1_000_000);
 pub(crate) const THREADS: Count = Count::new(1, 1024);
-/// Combinations of values of one test of the rheometer; more are no table.
-pub(crate) const VARIANTS: Count = Count::new(1, 24);
 
 impl Count {
     const fn new(least: usize, most: usize) -> Self {
@@ -58,7 +56,11 @@ impl Count {
 
     /// The error where more are asked for than there may be.
     pub(crate) fn check(self, count: usize, of: &'static str) -> Result<(), CliError> {
-        if count <= self.most { Ok(()) } else { Err(CliError::TooMany { of, most: self.most }) }
+        if count <= self.most {
+            Ok(())
+        } else {
+            Err(StudyError::TooMany { of, most: self.most }.into())
+        }
     }
 }
 

@@ -10,8 +10,8 @@ use dashpot_scene::{Diagnostic, Diagnostics, Scene, Severity, read};
 
 use crate::{
     args,
-    error::{CliError, Status},
-    input::{Input, options},
+    error::{CliError, Status, StudyError},
+    input::options,
     terminal::Terminal,
     verbs::undefined,
 };
@@ -93,7 +93,9 @@ impl Said {
     /// What an error says.
     pub(crate) fn all(error: &CliError) -> Vec<Self> {
         match error {
-            CliError::Scene(diagnostics) => diagnostics.list.iter().map(Self::from).collect(),
+            CliError::Study(StudyError::Scene(diagnostics)) => {
+                diagnostics.list.iter().map(Self::from).collect()
+            }
             error => {
                 let help = error.help();
                 vec![Self { help, ..Self::plain(Tone::Error, error.to_string()) }]
@@ -113,8 +115,8 @@ impl Said {
 ///
 /// What cannot be read, and why.
 pub fn open(path: &Path) -> Result<(String, String), Vec<Said>> {
-    let input = Input::read(path).map_err(|error| Said::all(&error))?;
-    let text = input.text().map_err(|error| Said::all(&error))?.to_owned();
+    let input = crate::input::read_input(path).map_err(|error| Said::all(&error.into()))?;
+    let text = input.text().map_err(|error| Said::all(&error.into()))?.to_owned();
     Ok((input.file, text))
 }
 

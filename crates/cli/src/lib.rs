@@ -11,18 +11,14 @@ mod error;
 mod folder;
 mod host;
 mod input;
-mod measured;
-mod non_identifiable;
 mod operand;
 mod options;
-mod origin;
 mod out;
 mod output;
 mod part;
 mod progress;
 mod said;
 mod section;
-mod sketch;
 mod terminal;
 mod unevaluated;
 mod varied;
@@ -31,11 +27,12 @@ mod verbs;
 use std::{io::ErrorKind, process::ExitCode};
 
 use dashpot_report::{layout as text, numbers};
+use dashpot_studies::{measured, non_identifiable, origin, sketch};
 
+pub use dashpot_studies::sketch::drawing;
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
 pub use input::load;
 pub use options::{VerbOption, options};
-pub use sketch::drawing;
 pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 
 use error::{CliError, Status};

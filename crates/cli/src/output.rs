@@ -1,111 +1,20 @@
 //! What goes out: every verb states its result once as a [`Study`], and [`emit`] brings it to people,
 //! to programs, and into a folder.
 
-use std::io::{self, Write};
-
-use dashpot_scene::{guarded, text_cell};
-use serde::{Serialize, Serializer};
-use serde_json::Value;
+use serde::Serialize;
 
 use crate::{
-    error::CliError,
+    error::{CliError, StudyError},
     folder::{Folder, Staged},
     host,
     terminal::{Terminal, note, print, print_data},
 };
 
 pub(crate) use dashpot_report::Text;
-
-/// Writes a heading and rows; a cell without a value is blank. A text that a sheet would take for a formula is guarded
-/// in cells as in headings; a number stays one.
-pub(crate) fn csv(
-    out: &mut dyn Write,
-    header: impl IntoIterator<Item = String>,
-    rows: impl IntoIterator<Item: Serialize>,
-) -> io::Result<()> {
-    let header: Vec<String> = header.into_iter().map(|own| text_cell(&own).into_owned()).collect();
-    writeln!(out, "{}", header.join(","))?;
-    let mut writer = csv::Writer::from_writer(out);
-    for row in rows {
-        cells(&serde_json::to_value(row)?, &mut writer)?;
-        writer.write_record(None::<&[u8]>)?;
-    }
-    writer.flush()
-}
-
-/// The cells of a row or of a part of it.
-fn cells(part: &Value, writer: &mut csv::Writer<impl Write>) -> csv::Result<()> {
-    match part {
-        Value::Array(all) => all.iter().try_for_each(|own| cells(own, writer)),
-        Value::Object(all) => all.values().try_for_each(|own| cells(own, writer)),
-        Value::Null => writer.write_field(""),
-        Value::Bool(own) => writer.write_field(own.to_string()),
-        Value::Number(own) => writer.write_field(own.to_string()),
-        Value::String(own) if own.parse::<f64>().is_ok() => writer.write_field(own),
-        Value::String(own) => writer.write_field(guarded(own).as_ref()),
-    }
-}
+pub(crate) use dashpot_studies::{Pairs, VERSION, alike, csv, each_once, list, object};
 
 /// File of a folder that has everything on one page.
 pub(crate) const PAGE: &str = "report.html";
-
-/// Version of the program; also the mark of files that it wrote.
-pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// An object with these keys, in this order: `object! { method: own.method, rtol }`; a key that has the attribute
-/// `#[serde(flatten)]` stands for those of its value.
-macro_rules! object {
-    (@value $key:ident) => { $key };
-    (@value $key:ident $value:expr) => { $value };
-    ($($(#[$flatten:meta])? $key:ident $(: $value:expr)?),* $(,)?) => {{
-        #[expect(non_camel_case_types, reason = "a key is the name of its own type as well")]
-        mod object {
-            #[derive(serde::Serialize)]
-            pub(super) struct Object<$($key),*> { $($(#[$flatten])? pub(super) $key: $key),* }
-        }
-        object::Object { $($key: object!(@value $key $($value)?)),* }
-    }};
-}
-pub(crate) use object;
-
-pub(crate) fn list<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
-    items.into_iter().collect()
-}
-
-/// Items that are alike in groups, in the order of their first ones.
-pub(crate) fn alike<T>(
-    items: impl IntoIterator<Item = T>,
-    is_alike: impl Fn(&T, &T) -> bool,
-) -> Vec<Vec<T>> {
-    let mut all: Vec<Vec<T>> = Vec::new();
-    for item in items {
-        match all.iter_mut().find(|group| is_alike(&group[0], &item)) {
-            Some(group) => group.push(item),
-            None => all.push(vec![item]),
-        }
-    }
-    all
-}
-
-/// Each item where it stands first.
-pub(crate) fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
-    list(alike(items, T::eq).into_iter().filter_map(|group| group.into_iter().next()))
-}
-
-/// A map in an order of its own.
-pub(crate) struct Pairs<K, V>(Vec<(K, V)>);
-
-impl<K, V> FromIterator<(K, V)> for Pairs<K, V> {
-    fn from_iter<I: IntoIterator<Item = (K, V)>>(pairs: I) -> Self {
-        Self(list(pairs))
-    }
-}
-
-impl<K: Serialize, V: Serialize> Serialize for Pairs<K, V> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
-    }
-}
 
 /// What a verb has found.
 pub(crate) trait Study {
@@ -146,7 +55,7 @@ pub(crate) fn emit(
     terminal: Terminal,
 ) -> Result<(), CliError> {
     if host::has_ended() {
-        return Err(CliError::Ended);
+        return Err(StudyError::Ended.into());
     }
     let object = || Ok::<_, CliError>(serde_json::to_string_pretty(&study.object())? + "\n");
     let data = || {

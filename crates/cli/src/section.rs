@@ -7,7 +7,12 @@ use clap::{ArgAction, Args, Command, FromArgMatches};
 use dashpot_scene::{Wish, wishes};
 use toml_edit::{DocumentMut, Item, Value};
 
-use crate::{error::CliError, host, input::Input, output::list};
+use crate::{
+    error::{CliError, StudyError},
+    host,
+    input::Input,
+    output::list,
+};
 
 /// Options of a call, which no scene has.
 const OF_THE_CALL: [&str; 4] = ["out", "force", "json", "set"];
@@ -33,7 +38,7 @@ impl Verb {
         input: &Input,
     ) -> Result<Option<A>, CliError> {
         let wishes =
-            wishes(self.name, input.text()?, Some(&input.file)).map_err(CliError::Scene)?;
+            wishes(self.name, input.text()?, Some(&input.file)).map_err(StudyError::Scene)?;
         if wishes.is_empty() {
             return Ok(None);
         }

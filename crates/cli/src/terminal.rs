@@ -11,7 +11,12 @@ pub(crate) use dashpot_report::{Tone, layout::WIDTH};
 use dashpot_report::{Tones, layout::hanging};
 use dashpot_scene::{Diagnostics, visible};
 
-use crate::{args::When, error::CliError, host, part::token};
+use crate::{
+    args::When,
+    error::{CliError, StudyError},
+    host,
+    part::token,
+};
 
 /// Where text goes.
 #[derive(Debug, Clone, Copy)]
@@ -65,7 +70,7 @@ impl Terminal {
     /// Tells of an error and of what to do.
     pub(crate) fn error(self, error: &CliError) {
         match error {
-            CliError::Scene(diagnostics) => self.diagnose(diagnostics),
+            CliError::Study(StudyError::Scene(diagnostics)) => self.diagnose(diagnostics),
             error => self.fail("", error),
         }
     }

@@ -7,6 +7,7 @@ use dashpot_scene::{
     units::{parse_quantity, si_unit},
 };
 
+use crate::input::AsCommanded as _;
 use crate::{input::Input, numbers::significant, output::list};
 
 /// Digits of a number that is written into a scene for people.

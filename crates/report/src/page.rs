@@ -172,6 +172,13 @@ impl Table {
     }
 }
 
+/// A heading, with a line below it where there is something to say.
+pub(crate) fn heading(words: &str, below: &str) -> String {
+    let below =
+        if below.is_empty() { String::new() } else { format!("<p>{}</p>\n", phrase(below)) };
+    format!("<h2>{}</h2>\n{below}", phrase(words))
+}
+
 pub(crate) fn list(class: &str, lines: &[String]) -> String {
     if lines.is_empty() {
         return String::new();

@@ -4,7 +4,7 @@ use dashpot_plot::{Chart, Map, PlotError};
 
 use crate::{
     ReportFigure, Table, Tone,
-    page::{list, whole},
+    page::{heading, list, whole},
 };
 
 /// Everything that a result says to people, once for all faces: [as text](crate::Text::report) and [as a page](Report::html).
@@ -63,8 +63,10 @@ pub enum Block {
     Table(Table),
     /// Paragraphs.
     Notes(Vec<String>),
-    /// A heading above further blocks.
-    Heading(String),
+    /// The rows of a table, below what has been said before.
+    Rows(Table),
+    /// A heading above further blocks, and what is to be known of all of them; empty for nothing.
+    Heading(String, String),
     /// A plot; on pages it is a [`Figure`].
     Chart(Chart),
 }
@@ -197,7 +199,8 @@ impl Report {
         parts.extend(self.blocks(Place::Pages).map(|block| match block {
             Block::Table(table) => table.html(),
             Block::Notes(notes) => list("notes", notes),
-            Block::Heading(words) => Table::plain(words.as_str(), []).html(),
+            Block::Rows(table) => table.html(),
+            Block::Heading(words, below) => heading(words, below),
             Block::Chart(_) => String::new(),
         }));
         for figure in &self.figures {

@@ -55,7 +55,7 @@ impl Text {
     /// A whole report; its charts only where they are to be `plotted`.
     pub fn report(&mut self, report: &Report, plotted: bool) {
         self.warnings(&report.warnings);
-        self.title(&report.title);
+        self.toned(report.tone, &report.title);
         report.asked.iter().for_each(|asked| self.faint(asked));
         if !report.verdict.is_empty() {
             self.blank();
@@ -67,7 +67,11 @@ impl Text {
             match block {
                 Block::Table(content) => self.table(content),
                 Block::Notes(notes) => self.paragraphs(notes),
-                Block::Heading(words) => self.heading(words),
+                Block::Rows(content) => self.rows(content),
+                Block::Heading(words, below) => {
+                    self.heading(words);
+                    self.faint(below);
+                }
                 Block::Chart(chart) if plotted => self.chart(chart, CHART),
                 Block::Chart(_) => {}
             }
@@ -200,7 +204,11 @@ impl Text {
             let (header, rows) = table(part);
             let lines = header.lines().chain(rows.iter().map(String::as_str));
             for line in lines.filter(|line| columns(line) > 0) {
-                self.line(&format!("  {line}"));
+                if columns(line) <= WIDTH - 2 {
+                    self.line(&format!("  {line}"));
+                } else {
+                    self.items([line]);
+                }
             }
         }
     }

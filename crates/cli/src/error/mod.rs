@@ -8,24 +8,17 @@ use std::{
     process::ExitCode,
 };
 
-use dashpot_analysis::{
-    Limit, RunError, rheometer::RheometerError, similarity::SimilarityError, sweep::SweepError,
-    vibration::VibrationError,
-};
-use dashpot_dae::SolveError;
+use dashpot_analysis::{Limit, RunError, similarity::SimilarityError, sweep::SweepError};
 use dashpot_design::cushion::NoCushion;
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
-use dashpot_scene::{
-    Diagnostics, Fault, ListedFault, TableError, TunableFault, Unwritable, VariationFault, nearest,
-};
+use dashpot_scene::{ListedFault, TunableFault, Unwritable, VariationFault, nearest};
 use dashpot_signal::{ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
 use crate::{
-    host,
     numbers::constant,
     verbs::{
         run::stated,
@@ -33,7 +26,7 @@ use crate::{
     },
 };
 
-pub(crate) use self::help::{is_unit, unquoted_help};
+pub(crate) use dashpot_studies::{StudyError, is_unit, unquoted_help};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,9 +52,9 @@ impl From<Status> for ExitCode {
 /// Why a command did not do what it was asked for.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
-    /// A scene that is not valid.
-    #[error("{0}")]
-    Scene(Diagnostics),
+    /// A study that was not done.
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// A file that is no table of designs.
     #[error("`{}`: {fault}", .file.display())]
     Listed { file: PathBuf, fault: Box<ListedFault> },
@@ -90,9 +83,6 @@ pub(crate) enum CliError {
         constant(*.end, "s")
     )]
     BeyondEnd { time: f64, end: f64 },
-    /// A scene that cannot be read.
-    #[error("`{name}` cannot be read: {reason}")]
-    Unreadable { name: String, reason: String, similar: Option<String> },
     /// A file that is there already.
     #[error("`{}` exists already", .path.display())]
     Foreign { path: PathBuf, help: &'static str },
@@ -111,27 +101,9 @@ pub(crate) enum CliError {
     /// A word that no register has.
     #[error("there is no kind `{word}`")]
     UnknownKind { word: String, near: Option<String> },
-    /// A node that a network does not have.
-    #[error("there is no node `{name}`; the nodes are {}", .known.join(", "))]
-    UnknownNode { name: String, known: Vec<String> },
-    /// A response that cannot be given.
-    #[error(transparent)]
-    Response(#[from] DrivingPointError),
-    /// A network with moving masses where a model of springs and dashpots is wanted.
-    #[error("`{word}` has masses that move: no springs and dashpots alone respond like it")]
-    MovingMasses { word: String },
-    /// A model that is not linear, where one is wanted that is.
-    #[error("`{kind}` in `{word}` is not linear")]
-    NotLinear { word: String, kind: &'static str },
     /// A model that cannot be brought into a form.
     #[error("`{word}` cannot be written as `{form}`: {reason}")]
     Unfit { word: String, form: &'static str, reason: Unfit },
-    /// A test that cannot be made.
-    #[error(transparent)]
-    Rheometer(#[from] RheometerError),
-    /// A scene that cannot be shaken.
-    #[error(transparent)]
-    Vibration(#[from] VibrationError),
     /// Values of a parameter that cannot be read.
     #[error("`--vary`: {0}")]
     Variation(#[from] VariationFault),
@@ -147,9 +119,6 @@ pub(crate) enum CliError {
     /// A result that takes more memory than one may.
     #[error("{what} take some {} MB of memory: they are refused beyond {} MB", bytes / 1_000_000, most / 1_000_000)]
     TooLarge { what: String, bytes: usize, most: usize, help: &'static str },
-    /// More of something than there may be.
-    #[error("these are more than {most} {of}")]
-    TooMany { of: &'static str, most: usize },
     /// A sweep that cannot be done.
     #[error(transparent)]
     Sweep(SweepError),
@@ -165,15 +134,6 @@ pub(crate) enum CliError {
     /// Shards that are not there.
     #[error("{}", missing(.numbers, *.of))]
     ShardsMissing { numbers: Vec<usize>, of: usize },
-    /// A parameter that no test has.
-    #[error("no test has a `{name}`; there are {}", .known.join(", "))]
-    UnknownSetting { name: String, known: Vec<&'static str> },
-    /// A file with a measured curve that is no table.
-    #[error("`{file}`, {fault}")]
-    MeasuredTable { file: String, fault: Box<TableError> },
-    /// A measured curve that cannot be read, or of which it is not clear what it measured.
-    #[error("`{flag} {file}`: {reason}")]
-    MeasuredColumn { flag: &'static str, file: String, reason: String },
     /// Something that nothing can be fitted to.
     #[error("`--to {text}`: {reason}")]
     Fit { text: String, reason: String },
@@ -192,30 +152,6 @@ pub(crate) enum CliError {
     /// An output that a scene does not have, or that cannot be measured.
     #[error("`{flag} {file}`: there is no `{name}` over time to stand beside")]
     NotMeasurable { flag: &'static str, file: String, name: String, known: Vec<String> },
-    /// A parameter of a test with a value that cannot be used.
-    #[error("`{name}`: {reason}")]
-    WrongSetting { name: String, reason: String },
-    /// A setting that is no quantity, or one of another dimension.
-    #[error("`{name}`: {fault}")]
-    Quantity { name: String, fault: Box<Fault> },
-    /// An element that a scene does not have.
-    #[error("there is no element `{name}`; the elements are {}", .known.join(", "))]
-    UnknownElement { name: String, known: Vec<String> },
-    /// Constants that are too far apart.
-    #[error("the constants of `{word}` are too far apart for double precision")]
-    OutOfRange { word: String },
-    /// A response between a node and itself.
-    #[error("both nodes are `{name}`: nothing deforms between a node and itself")]
-    OneNode { name: String },
-    /// A material and a pad.
-    #[error("one of them is a material, in Pa, the other a model of a pad, in N/m")]
-    MaterialAndPad,
-    /// A material where a pad is wanted.
-    #[error("`{word}` is a material; the impact needs a pad with thickness and area")]
-    MaterialInImpact { word: String },
-    /// Two networks whose responses are not known well enough.
-    #[error("the responses are known only within {error:.0e}, too little to tell")]
-    Undecided { error: f64 },
     /// A text in which a model cannot be replaced.
     #[error("the text of `{word}` cannot be rewritten with another model")]
     NotReplaced { word: String },
@@ -228,28 +164,30 @@ pub(crate) enum CliError {
     /// A scene that cannot be written.
     #[error(transparent)]
     Unwritten(#[from] Unwritable),
-    /// A run that cannot be done.
-    #[error(transparent)]
-    Run(#[from] RunError),
     /// The thesis cannot be recomputed.
     #[error(transparent)]
     Thesis(#[from] ThesisError),
-    /// A figure that cannot be drawn.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// The program that calls has asked the work to end.
-    #[error("{}", host::ENDED)]
-    Ended,
     /// Results that cannot be written as JSON.
     #[error("the results cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
 
+/// What a study would say, where the command asks itself.
+macro_rules! as_of_studies {
+    ($($error:ty),*) => { $(impl From<$error> for CliError {
+        fn from(error: $error) -> Self {
+            StudyError::from(error).into()
+        }
+    })* };
+}
+
+as_of_studies!(RunError, DrivingPointError, PlotError);
+
 impl From<SweepError> for CliError {
     fn from(error: SweepError) -> Self {
         match error {
             // What is wrong with a run is told as in a run.
-            SweepError::Run(error) => Self::Run(error),
+            SweepError::Run(error) => error.into(),
             error => Self::Sweep(error),
         }
     }
@@ -258,7 +196,7 @@ impl From<SweepError> for CliError {
 impl From<NoCushion> for CliError {
     fn from(error: NoCushion) -> Self {
         match error {
-            NoCushion::Run(error) => Self::Run(error),
+            NoCushion::Run(error) => error.into(),
             NoCushion::Sweep(error) => error.into(),
             error => Self::Cushion(Box::new(error)),
         }
@@ -289,19 +227,15 @@ pub(crate) fn unwritable(path: &Path) -> impl Fn(io::Error) -> CliError + use<> 
 }
 
 impl CliError {
-    /// What is wrong with a setting of this name.
+    /// A word that no register has, with the one that is nearest among the `known` ones.
     pub(crate) fn unknown_kind<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Self {
         let near = nearest(word, known).map(str::to_owned);
         Self::UnknownKind { word: word.to_owned(), near }
     }
 
+    /// What is wrong with a setting of this name.
     pub(crate) fn setting(name: &str, reason: impl Into<String>) -> Self {
-        Self::WrongSetting { name: name.to_owned(), reason: reason.into() }
-    }
-
-    /// What is wrong with a quantity of this name.
-    pub(crate) fn quantity(name: &str, fault: Fault) -> Self {
-        Self::Quantity { name: name.to_owned(), fault: Box::new(fault) }
+        StudyError::setting(name, reason).into()
     }
 
     /// The one table of exit codes.
@@ -309,34 +243,19 @@ impl CliError {
         match self {
             // The place is wrong; all else, such as a full disk, is a failure.
             Self::Unwritable { source, .. } if is_wrong_place(source) => Status::InputWrong,
-            Self::Run(error) => match error {
-                RunError::Network(_)
-                | RunError::UnknownMethod { .. }
-                | RunError::UnknownTarget { .. }
-                | RunError::UnknownMeasure { .. }
-                | RunError::NoMeasure { .. }
-                | RunError::UnknownOutput { .. }
-                | RunError::InvalidSetting { .. }
-                | RunError::Solve(
-                    SolveError::NotApplicable { .. } | SolveError::InvalidSetting { .. },
-                ) => Status::InputWrong,
-                _ => Status::RunFailed,
-            },
+            Self::Study(error) if error.is_of_input() => Status::InputWrong,
+            Self::Study(_) => Status::RunFailed,
             Self::Sweep(error) => match error {
                 SweepError::NotPosed(_) | SweepError::NoPoints | SweepError::NoneReported => {
                     Status::InputWrong
                 }
                 _ => Status::RunFailed,
             },
-            Self::Vibration(VibrationError::Unbounded { .. } | VibrationError::Cancelled)
-            | Self::Undecided { .. }
-            | Self::Busy { .. }
+            Self::Busy { .. }
             | Self::Interrupted { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)
             | Self::Thesis(_)
-            | Self::Plot(_)
-            | Self::Ended
             | Self::Json(_) => Status::RunFailed,
             _ => Status::InputWrong,
         }

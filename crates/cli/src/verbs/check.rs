@@ -10,7 +10,6 @@ use dashpot_scene::Scene;
 use crate::{
     args::ValueArguments,
     error::{CliError, Status},
-    input::Input,
     non_identifiable::notes,
     numbers::counted,
     operand::{read_models_of, read_scene_of},
@@ -53,7 +52,7 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: Terminal) -> Result<St
 }
 
 fn checked(path: &Path, set: &[(String, String)], terminal: Terminal) -> Result<String, CliError> {
-    let input = Input::read(path)?;
+    let input = crate::input::read_input(path)?;
     if let Some(models) = read_models_of(&input, set, terminal)? {
         return Ok(models);
     }

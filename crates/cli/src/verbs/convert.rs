@@ -13,14 +13,16 @@ use dashpot_rheology::{
 };
 use dashpot_scene::{read_named_model, with_model, write_model_table};
 
+use crate::input::AsCommanded as _;
 use crate::{
     args::{MODEL, ValueArguments},
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     numbers::bound,
-    operand::{Operand, Subject},
+    operand::Surroundings,
     out::{SceneFile, SceneText},
     terminal::{Terminal, note, print, print_data},
 };
+use dashpot_studies::operand::{Operand, Subject};
 
 /// Name of the table for a response, which has none of its own.
 const RESPONSE: &str = "response";
@@ -64,11 +66,12 @@ pub(crate) fn convert(
     arguments: &ConvertArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let operand = Operand::read(&arguments.model, &arguments.values.set, terminal)?;
+    let mut surroundings = Surroundings::of("convert", terminal);
+    let operand = Operand::read(&arguments.model, &arguments.values.set, &mut surroundings)?;
     let file = arguments.out.as_deref().map(|path| SceneFile::new(path, arguments.force));
     let file = file.transpose()?;
     let word = || operand.word.clone();
-    let linear = operand.linear()?.ok_or_else(|| CliError::MovingMasses { word: word() })?;
+    let linear = operand.linear()?.ok_or_else(|| StudyError::MovingMasses { word: word() })?;
     let target =
         Target::named(&arguments.to).ok_or_else(|| CliError::unknown_kind(&arguments.to, []))?;
     let tree = converted(&linear, &target).map_err(|reason| CliError::Unfit {
@@ -136,7 +139,7 @@ fn confirm(
     set: &[(String, String)],
 ) -> Result<(), CliError> {
     let again = read_named_model(text, name, &operand.input.options(set));
-    let again = again.map_err(CliError::Scene)?.value.model;
+    let again = again.map_err(StudyError::Scene)?.value.model;
     let is_same = compare(&linear_model(&again), &linear_model(model)).is_same;
     if is_same { Ok(()) } else { Err(CliError::NotReplaced { word: operand.word.clone() }) }
 }

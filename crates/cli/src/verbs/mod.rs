@@ -2,7 +2,6 @@
 //! Those that find something out state it as a [`Study`](crate::output::Study).
 
 mod check;
-mod compare;
 mod convert;
 mod cost;
 mod cushion;
@@ -13,12 +12,11 @@ mod fit;
 mod groups;
 mod list;
 mod printed;
-mod rheometer;
 pub(crate) mod run;
 mod signal;
+mod study;
 pub(crate) mod sweep;
 mod thesis;
-mod vibrate;
 
 use std::path::PathBuf;
 
@@ -77,10 +75,9 @@ pub(crate) enum Command {
     Explain(explain::ExplainArguments),
     /// Writes a model in another form that does the same, and says how nearly.
     Convert(convert::ConvertArguments),
-    /// Says whether two models or networks are the same from outside, by their poles.
-    Compare(compare::CompareArguments),
-    /// Tests a model alone: creep, relaxation, oscillation, in closed form and by simulation.
-    Rheometer(rheometer::RheometerArguments),
+    /// A study.
+    #[command(flatten)]
+    Study(study::StudyArguments),
     /// Shows what accuracy costs: true errors of every method against time and work.
     Cost(cost::CostArguments),
     /// Reads measured channels: offset, CFC filter, peak, HIC, clips, with the errors of sampling.
@@ -95,8 +92,6 @@ pub(crate) enum Command {
     Cushion(cushion::CushionArguments),
     /// Fits numbers of a scene, or a material, to measurements, and says what these cannot tell.
     Fit(fit::FitArguments),
-    /// Shakes a linear scene with a sine: transmissibility, resonances, peaks of the steady state.
-    Vibrate(vibrate::VibrateArguments),
     /// Recomputes the thesis behind this project: its numbers, figures, misprints and claims.
     Thesis(thesis::ThesisArguments),
     /// Shows dimensionless groups, whether scenes are similar, and designs laboratory tests.
@@ -128,8 +123,7 @@ impl Command {
             Self::Check(arguments) => check::check(arguments, terminal),
             Self::Explain(arguments) => explain::explain(arguments, terminal),
             Self::Convert(arguments) => convert::convert(arguments, terminal),
-            Self::Compare(arguments) => compare::compare(arguments, terminal),
-            Self::Rheometer(arguments) => rheometer::rheometer(arguments, terminal),
+            Self::Study(arguments) => arguments.run(terminal),
             Self::Cost(arguments) => cost::cost(arguments, terminal),
             Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
@@ -137,7 +131,6 @@ impl Command {
             Self::Design(arguments) => design::design(arguments, terminal),
             Self::Cushion(arguments) => cushion::cushion(arguments, terminal),
             Self::Fit(arguments) => fit::fit(arguments, terminal),
-            Self::Vibrate(arguments) => vibrate::vibrate(arguments, terminal),
             Self::Thesis(arguments) => thesis::thesis(arguments, terminal),
             Self::Groups(arguments) => groups::groups(arguments, terminal),
             Self::List(arguments) => list::list(arguments, terminal),

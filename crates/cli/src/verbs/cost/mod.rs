@@ -84,7 +84,7 @@ pub(crate) fn cost(arguments: &CostArguments, terminal: Terminal) -> Result<Stat
     let accuracies = accuracies(scene.accuracy.default);
     let costs = Costs { scene, report, accuracies };
     print_notes(&costs.scene.notes);
-    note_means(&costs.scene);
+    note_means(&costs.scene, terminal);
     emit(&costs, arguments.json, folder, terminal)?;
     Ok(if costs.report.points.is_empty() { Status::RunFailed } else { Status::Done })
 }

@@ -16,7 +16,7 @@ use super::CushionArguments;
 use crate::{
     around::{Around, with_scatter},
     counts::{CURVE_POINTS, CURVES},
-    error::CliError,
+    error::{CliError, StudyError},
     input::{Input, setting},
     output::list,
     varied::{Varied, messages, point, posed},
@@ -40,7 +40,7 @@ impl Wanted {
     ) -> Result<Self, CliError> {
         let CushionArguments { platen, pad, .. } = arguments;
         let platen = Platen::of(&scene.network, platen.as_deref(), pad.as_deref())?;
-        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(StudyError::Scene)?;
         let heights = lengths("--heights", arguments.heights.as_deref())?;
         let no_height = || NoCushion::NoHeight { body: platen.body.clone() };
         let heights = match heights {
@@ -126,7 +126,7 @@ impl Wanted {
             let thickness = values.first().copied().unwrap_or(f64::NAN);
             let own = pose(thickness)?;
             let drawn = self.drawn(thickness, of, arguments).map_err(|fault| match fault {
-                CliError::Scene(faults) => messages(&faults),
+                CliError::Study(StudyError::Scene(faults)) => messages(&faults),
                 other => other.to_string(),
             })?;
             drawn.map_or_else(|| Ok(vec![own.clone()]), |drawn| drawn.designs(&own.settings))
@@ -193,10 +193,10 @@ fn values(
 ) -> Result<Option<Vec<f64>>, CliError> {
     let Some(text) = text else { return Ok(None) };
     let wrong = |reason: String| CliError::setting(flag, reason);
-    let unlike = |fault: Fault| CliError::quantity(flag, fault);
+    let unlike = |fault: Fault| StudyError::quantity(flag, fault);
     let unreadable = |error| unlike(Fault::Unreadable { error, expected: dimension });
     let own = Variation::parse(&format!("values={text}")).map_err(|fault| match fault {
-        VariationFault::BadValue { error } => unreadable(error),
+        VariationFault::BadValue { error } => unreadable(error).into(),
         other => wrong(other.to_string()),
     })?;
     if let Some(word) = own.words.first() {
@@ -205,7 +205,7 @@ fn values(
     match own.dimension {
         Some(found) if found != dimension => {
             let text = text.to_owned();
-            return Err(unlike(Fault::WrongDimension { text, found, expected: dimension }));
+            return Err(unlike(Fault::WrongDimension { text, found, expected: dimension }).into());
         }
         None => {
             let written = with_units(text, dimension);

@@ -137,7 +137,7 @@ fn curve(own: &Curve) -> CushionCurve {
 
 fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Page {
     let scene = &drawn.scene;
-    let settings = Table::plain("Settings", origin::rows(scene));
+    let settings = Table::plain("Settings", origin::rows(scene, &crate::load));
     let verdict = words::lines(drawn).into_iter();
     let verdict = verdict.map(|own| format!("{}: {}", own.label, own.text));
     let remarks = words::notes(drawn).into_iter().chain(said::notes(scene));

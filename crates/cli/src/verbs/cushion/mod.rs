@@ -23,7 +23,7 @@ use crate::{
     counts::{SCATTERED_SCENES, threads},
     error::{CliError, Status},
     folder::{Folder, Staged},
-    input::{Input, title},
+    input::title,
     operand::{print_notes, read_scene_of},
     output::{Study, Text, emit},
     progress::Bar,
@@ -122,7 +122,7 @@ pub(crate) fn cushion(
     arguments: &CushionArguments,
     terminal: Terminal,
 ) -> Result<Status, CliError> {
-    let input = Input::of(arguments.scene.scene.as_deref())?;
+    let input = crate::input::of(arguments.scene.scene.as_deref())?;
     let set = &arguments.scene.values.set;
     let scene = read_scene_of(&input, set, terminal)?;
     let wanted = Wanted::of(arguments, &scene, &input)?;

@@ -25,7 +25,7 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
     };
     object! {
         #[serde(flatten)]
-        head: origin::head(scene),
+        head: origin::head(scene, &crate::load),
         unevaluated: &cushion.unevaluated,
         platen,
         limit: wanted.asked.limit,

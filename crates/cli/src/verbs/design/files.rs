@@ -124,7 +124,10 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Page {
         tables: list(tables.filter(|own| !own.rows.is_empty())),
         network: sketch::figure(&answer.scene),
         figures,
-        details: vec![Table::plain("Settings", asked.chain(origin::rows(&answer.scene)))],
+        details: vec![Table::plain(
+            "Settings",
+            asked.chain(origin::rows(&answer.scene, &crate::load)),
+        )],
         scene_text: answer.text().to_owned(),
     }
 }

@@ -42,9 +42,8 @@ use super::run::{
 use crate::{
     args::{LimitArguments, NO_SCATTER, SceneArguments, method_names, probability, refuse},
     counts::{DESIGNS, FRONT_POINTS, SCATTERED_SCENES},
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     host,
-    input::Input,
     operand::read_scene_of,
     out::OutArguments,
     output::{emit, list},
@@ -157,13 +156,13 @@ impl DesignArguments {
 }
 
 pub(crate) fn design(arguments: &DesignArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let input = Input::of(arguments.scene.scene.as_deref())?;
+    let input = crate::input::of(arguments.scene.scene.as_deref())?;
     let merged = SECTION.merged(&input)?;
     let arguments = merged.as_ref().unwrap_or(arguments);
     arguments.check()?;
     let set = &arguments.scene.values.set;
     let mut scene = read_scene_of(&input, set, terminal)?;
-    let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+    let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(StudyError::Scene)?;
     let (tests, files) = scenes::tests(&arguments.test, &input)?;
     let asked = Asked::of(arguments, tunables, tests)?;
     let further = arguments.limits.beside(&scene.limits)?;
@@ -328,7 +327,7 @@ fn scatter_of(
     let mut watch = |done, of| bar.count(done, of);
     let asked = (&point.settings, &*drawn.plain);
     let report = scatter::solved(&drawn.scene, sample, asked, &mut watch);
-    run.scatter = report.map_err(CliError::Run)?.map(Box::new);
+    run.scatter = report.map_err(StudyError::Run)?.map(Box::new);
     if let (Some(own), Some(wanted)) = (&mut run.scatter, wanted) {
         own.wanted = wanted;
     }

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     around::{Around, with_scatter},
-    error::CliError,
+    error::{CliError, StudyError},
     host::{ENDED, Watch},
     numbers::counted,
     output::list,
@@ -140,7 +140,7 @@ impl Posing<'_> {
     ) -> Result<Vec<ScenePoint>, String> {
         let own = self.pose(choice, test)(values)?;
         let drawn = self.drawn(choice, test, values).map_err(|fault| match fault {
-            CliError::Scene(faults) => messages(&faults),
+            CliError::Study(StudyError::Scene(faults)) => messages(&faults),
             other => other.to_string(),
         })?;
         match drawn {

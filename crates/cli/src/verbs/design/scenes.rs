@@ -7,7 +7,7 @@ use dashpot_scene::{Scene, Tunables, units::si_unit};
 use super::{among::Among, asked::Asked};
 use crate::{
     args::{Variant, variant},
-    error::CliError,
+    error::{CliError, StudyError},
     input::Input,
     operand::{print_notes, read_scene_of},
     output::{each_once, list},
@@ -139,9 +139,9 @@ impl TestScene {
         set: &[(String, String)],
         terminal: Terminal,
     ) -> Result<Self, CliError> {
-        let input = Input::read(path)?;
+        let input = crate::input::read_input(path)?;
         let scene = read_scene_of(&input, set, terminal)?;
-        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(StudyError::Scene)?;
         let missing = |name: &str, why: String| {
             let file = &input.file;
             wrong(format!("`{name}` is sought, and has to be in {file} by the same name: {why}"))

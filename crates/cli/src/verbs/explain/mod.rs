@@ -13,7 +13,7 @@ use dashpot_scene::{Scene, outline};
 use crate::{
     args::SceneArguments,
     error::{CliError, Status},
-    input::{Input, title},
+    input::title,
     non_identifiable::notes,
     numbers::constant,
     operand::{read_models_of, read_scene_of},
@@ -55,7 +55,7 @@ pub(crate) fn explain(
     terminal: Terminal,
 ) -> Result<Status, CliError> {
     let SceneArguments { scene: path, values } = &arguments.scene;
-    let input = Input::of(path.as_deref())?;
+    let input = crate::input::of(path.as_deref())?;
     if let Some(models) = read_models_of(&input, &values.set, terminal)? {
         if arguments.out.is_some() {
             return Err(CliError::setting("--out", "a file of models has no network to draw"));

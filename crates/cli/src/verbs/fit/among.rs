@@ -10,8 +10,9 @@ use dashpot_scene::{NamedModel, read_named_model, with_model};
 use serde::Serialize;
 
 use super::scene::{FittedScene, Plan};
+use crate::input::AsCommanded as _;
 use crate::{
-    error::CliError,
+    error::{CliError, StudyError},
     numbers::{share, significant},
     output::{list, object},
     terminal::note,
@@ -75,7 +76,7 @@ pub(super) fn chosen<'p>(plan: Plan<'p>, text: &str) -> Result<FittedScene<'p>, 
     let (name, forms) = asked(text)?;
     let set = &plan.arguments.values.set;
     let named = read_named_model(&plan.scene.text, name, &plan.input.options(set));
-    let named = named.map_err(CliError::Scene)?.value;
+    let named = named.map_err(StudyError::Scene)?.value;
     let places = forms.iter().map(|form| replaced(&plan, &named, form));
     let mut places = places.collect::<Result<Vec<_>, _>>()?;
     let mut fits: Vec<Option<NetworkFit>> = Vec::new();

@@ -9,13 +9,14 @@ use dashpot_signal::Cfc;
 
 use super::{pressed::times, target::is_output};
 use crate::{
-    args::{assignment, frequency_class, share},
+    args::{frequency_class, share},
     error::CliError,
     input::setting,
     measured::MeasuredFile,
     output::list,
     varied::Varied,
 };
+use dashpot_studies::assignment;
 
 /// The option, for messages.
 pub(super) const FLAG: &str = "--to";
@@ -158,7 +159,7 @@ impl Asked {
 
     /// What to write in place of an output where the file has a force over a deformation, and no times.
     pub(super) fn of_model(&self) -> Option<String> {
-        let file = MeasuredFile::read(FLAG, &self.file).ok()?;
+        let file = MeasuredFile::read(FLAG, &self.file, &crate::load).ok()?;
         let table = file.table().ok()?;
         let has = |dimension| !table.measuring(dimension).is_empty();
         let is_curve = !has(Dimension::TIME) && has(Dimension::LENGTH) && has(Dimension::FORCE);
@@ -169,7 +170,7 @@ impl Asked {
 
     /// The record in the file, without rows behind a time \[s\].
     pub(super) fn measured(&self, until: Option<f64>) -> Result<Measured, CliError> {
-        let file = MeasuredFile::read(FLAG, &self.file)?;
+        let file = MeasuredFile::read(FLAG, &self.file, &crate::load)?;
         let table = file.table()?;
         let columns = self.positions(&file, &table)?;
         let found = Columns { file: &file, table: &table, answers: columns, scale: self.scale };
@@ -183,7 +184,7 @@ impl Asked {
             (_, Some(_)) if self.rate.is_some() => {
                 let reason =
                     "it has times: the rate is theirs, and none is to be stated".to_owned();
-                return Err(file.unclear(reason));
+                return Err(file.unclear(reason).into());
             }
             (_, Some(time)) => found.over_time(time)?,
             _ => return self.pressed(&file, &found),
@@ -204,7 +205,7 @@ impl Asked {
     fn pressed(&self, file: &MeasuredFile, found: &Columns<'_, '_>) -> Result<Measured, CliError> {
         let &[column] = &found.answers[..] else {
             found.check_units()?;
-            return Err(file.unclear("over a deformation one column answers".to_owned()));
+            return Err(file.unclear("over a deformation one column answers".to_owned()).into());
         };
         let (way, speed, unit, is_material) = match found.dimension(column)? {
             Dimension::FORCE => (Dimension::LENGTH, Dimension::VELOCITY, "10 mm/min", false),
@@ -213,7 +214,7 @@ impl Asked {
                 found.check_units()?;
                 let wanted = "a column of times, as in `t [s]`, or frequencies, as in `f [Hz]`, is wanted; a force \
                               over a deformation, or a stress over a strain, goes without";
-                return Err(file.unclear(wanted.to_owned()));
+                return Err(file.unclear(wanted.to_owned()).into());
             }
         };
         let Some(driven) = file.only(found.table, way)? else {
@@ -221,17 +222,19 @@ impl Asked {
             return Err(file.unclear(format!(
                 "`{}` stands beside no column of times, of frequencies, or of what was done: {wanted}",
                 found.name(column)
-            )));
+            )).into());
         };
         let Some(rate) = &self.rate else {
-            return Err(file.unclear(format!(
-                "it has no times: state how fast it was pressed, \"{},rate={unit}\"",
-                self.text
-            )));
+            return Err(file
+                .unclear(format!(
+                    "it has no times: state how fast it was pressed, \"{},rate={unit}\"",
+                    self.text
+                ))
+                .into());
         };
         let rate = setting("rate", rate, speed)?;
         if rate.is_nan() || rate <= 0.0 {
-            return Err(file.unclear("a rate is above zero".to_owned()));
+            return Err(file.unclear("a rate is above zero".to_owned()).into());
         }
         let (ways, answers) =
             (found.numbers(driven, way)?, found.numbers(column, found.dimension(column)?)?);
@@ -271,7 +274,7 @@ impl Asked {
             }
         }
         let found = self.columns.iter().map(|own| table.position(own));
-        found.collect::<Result<_, _>>().map_err(|fault| file.fault(fault))
+        found.collect::<Result<_, _>>().map_err(|fault| file.fault(fault).into())
     }
 }
 
@@ -295,7 +298,8 @@ impl Columns<'_, '_> {
     fn dimension(&self, column: usize) -> Result<Dimension, CliError> {
         let name = self.name(column);
         self.table.heading(column).dimension.ok_or_else(|| {
-            self.file.unclear(format!("column `{name}` has no unit: write `{name} [MPa]`, say"))
+            let wanted = format!("column `{name}` has no unit: write `{name} [MPa]`, say");
+            self.file.unclear(wanted).into()
         })
     }
 
@@ -338,7 +342,7 @@ impl Columns<'_, '_> {
             low - zero,
             high - zero,
             self.name(column)
-        )))
+        )).into())
     }
 
     /// Angular frequencies \[rad/s\]: turns a second, or angles, by their unit; where that is 1/s, by their name.
@@ -358,7 +362,7 @@ impl Columns<'_, '_> {
                 return Err(self.file.unclear(format!(
                     "`{name} [{unit}]` may be turns a second or rad/s, which differ by 2π: write `{name} [Hz]` or \
                      `{name} [rad/s]` into the file, whichever it is"
-                )));
+                )).into());
             }
         };
         let values = self.numbers(column, Dimension::FREQUENCY)?;
@@ -373,9 +377,12 @@ impl Columns<'_, '_> {
         }
         if ![Dimension::PRESSURE, Dimension::STIFFNESS].contains(&dimension) {
             let name = self.name(self.answers[0]);
-            return Err(self.file.unclear(format!(
-                "column `{name}` over frequency is neither a modulus (Pa) nor a stiffness (N/m)"
-            )));
+            return Err(self
+                .file
+                .unclear(format!(
+                    "column `{name}` over frequency is neither a modulus (Pa) nor a stiffness (N/m)"
+                ))
+                .into());
         }
         let is_material = dimension == Dimension::PRESSURE;
         let omegas = self.omegas(frequency)?;
@@ -395,7 +402,7 @@ impl Columns<'_, '_> {
                     "over frequency name storage and loss, as in \"dma.csv:E',E''=felt\", or one of \
                      them by a symbol with one or two strokes"
                         .to_owned(),
-                ));
+                ).into());
             }
         };
         let what = match record {
@@ -410,7 +417,7 @@ impl Columns<'_, '_> {
     /// the history that another column has.
     fn over_time(&self, time: usize) -> Result<Found, CliError> {
         let &[column] = &self.answers[..] else {
-            return Err(self.file.unclear("over time one column answers".to_owned()));
+            return Err(self.file.unclear("over time one column answers".to_owned()).into());
         };
         let (name, dimension) = (self.name(column), self.dimension(column)?);
         let (driver, is_material, is_driven_by_strain) = match dimension {
@@ -424,7 +431,7 @@ impl Columns<'_, '_> {
             _ => {
                 return Err(self.file.unclear(format!(
                     "column `{name}` is no modulus, compliance, stress, strain, force or deformation"
-                )));
+                )).into());
             }
         };
         let times = self.numbers(time, Dimension::TIME)?;
@@ -435,7 +442,7 @@ impl Columns<'_, '_> {
                 let wanted = driver.named().map_or("what was done", |own| own.0);
                 return Err(self.file.unclear(format!(
                     "`{name}` over time needs a column of what was done, {wanted}, with its unit"
-                )));
+                )).into());
             }
             let rows = list(times.into_iter().zip(values));
             return Ok(if is_driven_by_strain {

@@ -63,7 +63,10 @@ pub(super) fn write_fitted_scene(
     let figures = figures::write(files, &of_scene(fitted))?;
     let notes = said::notes(&fitted.plan.scene).into_iter().chain(fitted.notes());
     let known = fitted.warnings();
-    let details = [settings(&fitted.plan.arguments.in_words(), origin::rows(&fitted.plan.scene))];
+    let details = [settings(
+        &fitted.plan.arguments.in_words(),
+        origin::rows(&fitted.plan.scene, &crate::load),
+    )];
     let drawn = fitted.fitted.as_ref();
     files.add(
         PAGE,

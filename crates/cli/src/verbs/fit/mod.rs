@@ -35,7 +35,7 @@ use self::{
 use crate::{
     args::{Switch, ValueArguments, frequency_class, paddings, share, shift},
     counts::STARTS,
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::Staged,
     input::Input,
     out::{OutArguments, SceneText},
@@ -259,7 +259,7 @@ impl Fitted<'_> {
 
 /// Fits numbers of a scene, or a model.
 pub(crate) fn fit(arguments: &FitArguments, terminal: Terminal) -> Result<Status, CliError> {
-    let input = arguments.scene.as_deref().map(Input::read).transpose()?;
+    let input = arguments.scene.as_deref().map(crate::input::read_input).transpose()?;
     let merged = input.as_ref().map(|own| SECTION.merged(own)).transpose()?.flatten();
     let arguments = merged.as_ref().unwrap_or(arguments);
     arguments.check()?;
@@ -296,7 +296,7 @@ fn fit_model(
     let measured = measured.collect::<Result<Vec<_>, _>>()?;
     let is_material = measured[0].is_material;
     if measured.iter().any(|own| own.is_material != is_material) {
-        return Err(CliError::MaterialAndPad);
+        return Err(StudyError::MaterialAndPad.into());
     }
     let is_timed = |own: &&Asked, record: &Record| own.rate.is_none() && record.has_times();
     let any = |is_one: &dyn Fn(&&Asked, &Record) -> bool| {
@@ -319,7 +319,7 @@ fn fit_model(
     let (beside, text) = (input.map_or("", |own| &own.file), String::new());
     let mut fitted = Fitted { arguments, records: measured, fit, text, file: beside };
     let model =
-        written::model(&fitted.fit).ok_or_else(|| CliError::OutOfRange { word: name.clone() })?;
+        written::model(&fitted.fit).ok_or_else(|| StudyError::OutOfRange { word: name.clone() })?;
     let scene = input.map(|own| (own, &arguments.values.set[..]));
     fitted.text = written::text(scene, (name, is_material), &model, &comments(&fitted))?;
     emit(&fitted, arguments.json, folder, terminal)?;

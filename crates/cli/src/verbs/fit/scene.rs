@@ -20,7 +20,7 @@ use super::{
     watched::Progress,
 };
 use crate::{
-    error::CliError,
+    error::{CliError, StudyError},
     input::{Input, bare_numbers, setting},
     operand::{print_notes, read_scene_of},
     out::SceneText,
@@ -108,9 +108,9 @@ impl<'p> Plan<'p> {
         let scene = read_scene_of(input, set, terminal)?;
         if arguments.scatter && scene.scatter.iter().any(|own| own.is_together) {
             let reason = "the scene has a section `[scatter]` already: leave that out".to_owned();
-            return Err(CliError::WrongSetting { name: "--scatter".to_owned(), reason });
+            return Err(StudyError::WrongSetting { name: "--scatter".to_owned(), reason }.into());
         }
-        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(CliError::Scene)?;
+        let tunables = Tunables::of(&scene.text, Some(&input.file)).map_err(StudyError::Scene)?;
         let numbers = numbers(arguments, &tunables)?;
         let mut curves: Vec<(Asked, Target)> = Vec::new();
         for asked in &arguments.to {
@@ -344,7 +344,7 @@ fn own_numbers(asked: &Asked, tunables: &Tunables) -> Result<Vec<(Varied, Known)
         let at = tunables.find(name);
         let at = at.map_err(|fault| CliError::Tunable { flag: FLAG, fault })?;
         let text = tunables.text_with(&[(at, value.clone())]);
-        let all = ScatteredNumber::all(&text, None).map_err(CliError::Scene)?;
+        let all = ScatteredNumber::all(&text, None).map_err(StudyError::Scene)?;
         let own = all.into_iter().find(|own| own.path == tunables.all()[at].path);
         let own = own.ok_or_else(|| wrong(format!("`{value}` has no standard deviation")))?;
         if own.mean <= 0.0 || own.dimension != tunables.all()[at].dimension {
@@ -406,13 +406,13 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         let unit = tunables.find(name).map_or("kN/m", |at| &*tunables.all()[at].unit);
         let reason =
             format!("`{name}` wants bounds above zero, such as \"{name}=10..1000 {unit}\"");
-        CliError::WrongSetting { name: "--vary".to_owned(), reason }
+        StudyError::WrongSetting { name: "--vary".to_owned(), reason }
     };
     let is_range = |own: &&String| {
         own.split_once('=').is_some_and(|own| own.1.contains("..") && !own.1.contains(','))
     };
     if let Some(own) = arguments.vary.iter().find(|own| !is_range(own)) {
-        return Err(wanted(own.split('=').next().unwrap_or(own).trim()));
+        return Err(wanted(own.split('=').next().unwrap_or(own).trim()).into());
     }
     let parsed = arguments.vary.iter().map(|own| Variation::parse(own));
     let mut variations = parsed.collect::<Result<Vec<_>, _>>()?;
@@ -423,7 +423,7 @@ fn numbers(arguments: &FitArguments, tunables: &Tunables) -> Result<Vec<Varied>,
         let bounds = [own.values[0], own.values[own.len() - 1]];
         let is_range = bounds[0] > 0.0 && bounds[0] < bounds[1];
         if own.is_of_words() || !is_range {
-            return Err(wanted(&own.name));
+            return Err(wanted(&own.name).into());
         }
         Ok(Varied::of(tunables, (&own.name, at), bounds, (&own.unit, own.dimension)))
     });

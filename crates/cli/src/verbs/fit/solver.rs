@@ -17,6 +17,7 @@ use dashpot_plot::Of;
 use dashpot_scene::{Posed, Tunables};
 
 use super::{among::Replaced, target::Compared};
+use crate::input::AsCommanded as _;
 use crate::{
     input::Input,
     output::list,

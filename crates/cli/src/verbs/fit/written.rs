@@ -7,7 +7,11 @@ use dashpot_scene::{
     ReadOptions, read_named_model, with_model, write_material_table, write_model_table,
 };
 
-use crate::{error::CliError, input::Input};
+use crate::input::AsCommanded as _;
+use crate::{
+    error::{CliError, StudyError},
+    input::Input,
+};
 
 /// Digits of fitted constants.
 const DIGITS: usize = 6;
@@ -47,7 +51,7 @@ pub(super) fn text(
         return confirmed(text, &format!("{section}.{name}"), &options);
     };
     if known.is_material != is_material {
-        return Err(CliError::MaterialAndPad);
+        return Err(StudyError::MaterialAndPad.into());
     }
     let comment = comments.join("; ");
     let replaced = with_model(text, &known, model, &comment);
@@ -57,6 +61,6 @@ pub(super) fn text(
 
 /// The text, if it can be read.
 fn confirmed(text: String, name: &str, options: &ReadOptions<'_>) -> Result<String, CliError> {
-    read_named_model(&text, name, options).map_err(CliError::Scene)?;
+    read_named_model(&text, name, options).map_err(StudyError::Scene)?;
     Ok(text)
 }

@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use self::{laboratory::Test, pair::Pair, thesis::Thesis};
 use crate::{
-    args::{ValueArguments, assignment, refuse},
+    args::{ValueArguments, refuse},
     error::{CliError, Status},
     input::{setting, title},
     numbers::{constant, significant},
@@ -28,6 +28,7 @@ use crate::{
     output::{Study, Text, alike, emit, list, object},
     terminal::{Terminal, note},
 };
+use dashpot_studies::assignment;
 
 const DIGITS: usize = 6;
 
@@ -131,7 +132,7 @@ pub(crate) fn groups(arguments: &GroupsArguments, terminal: Terminal) -> Result<
     }
     for own in [&scene].into_iter().chain(&other) {
         print_notes(&own.notes);
-        note_means(own);
+        note_means(own, terminal);
     }
     emit(&study, arguments.json, None, terminal)?;
     let is_other = study.pair.is_some_and(|pair| !pair.found.is_similar());

@@ -12,7 +12,12 @@ use dashpot_signal::{Cfc, Channel, Padding, Recorder, iso_mme::ChannelCode};
 
 use super::{columns::Columns, compared::Numbers, recorded::Recorded};
 use crate::{
-    args, error::CliError, measured::MeasuredFile, numbers::constant, origin, output::list,
+    args,
+    error::{CliError, StudyError},
+    measured::MeasuredFile,
+    numbers::constant,
+    origin,
+    output::list,
     verbs::signal::mme,
 };
 
@@ -196,7 +201,7 @@ impl MeasuredCurve {
             Some(Err(fault)) => Err(fault),
             None => all.only_one(assembly, &known),
         };
-        let sha256 = origin::of_file(name).unwrap_or_default();
+        let sha256 = origin::of_file(name, &crate::load).unwrap_or_default();
         let file = name.to_owned();
         if mme::is_one(Path::new(name)) {
             let channels = mme::read(Path::new(name))?;
@@ -209,7 +214,7 @@ impl MeasuredCurve {
             let column = own.channel.name().to_owned();
             return Ok(Self { file, sha256, column, output, rows, shift, cfc, note: None });
         }
-        let read = MeasuredFile::read(flag, name)?;
+        let read = MeasuredFile::read(flag, name, &crate::load)?;
         let table = read.table()?;
         let all = Columns::of_table((flag, name), &table);
         let (at, output) = chosen(&all)?;
@@ -224,15 +229,17 @@ impl MeasuredCurve {
         if let Some(next) = (1..rows.len()).find(|&next| rows[next].0 < rows[next - 1].0) {
             let [before, after] = [rows[next - 1].0, rows[next].0].map(|own| constant(own, "s"));
             let line = table.lines()[next];
-            return Err(read.unclear(format!(
-                "line {line}: the time {after} stands after {before}; sort the rows by time"
-            )));
+            return Err(read
+                .unclear(format!(
+                    "line {line}: the time {after} stands after {before}; sort the rows by time"
+                ))
+                .into());
         }
         if rows.len() < 2 {
             let found = if rows.is_empty() { "no row" } else { "one row" };
             return Err(read.unclear(format!(
                 "there is {found} of numbers in it, and a curve has two at least: look whether it was exported whole"
-            )));
+            )).into());
         }
         rows.iter_mut().for_each(|row| row.0 += shift);
         let (column, note) = (all.title(at), read.notes(&table));
@@ -240,7 +247,7 @@ impl MeasuredCurve {
     }
 
     fn unlike(&self, reason: String) -> CliError {
-        CliError::MeasuredColumn { flag: FLAG, file: self.file.clone(), reason }
+        StudyError::MeasuredColumn { flag: FLAG, file: self.file.clone(), reason }.into()
     }
 
     /// How far a run is from it.

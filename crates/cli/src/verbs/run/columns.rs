@@ -7,7 +7,7 @@ use dashpot_signal::iso_mme::MmeChannel;
 use dashpot_units::si_unit;
 
 use super::beside::{Output, dimension};
-use crate::error::CliError;
+use crate::error::{CliError, StudyError};
 
 /// What can be measured over time.
 const MEASURABLE: [Of; 4] = [Of::Force, Of::Acceleration, Of::Velocity, Of::Deformation];
@@ -73,7 +73,7 @@ impl<'f> Columns<'f> {
 
     fn unclear(&self, reason: String) -> CliError {
         let (flag, file) = self.place;
-        CliError::MeasuredColumn { flag, file: file.to_owned(), reason }
+        StudyError::MeasuredColumn { flag, file: file.to_owned(), reason }.into()
     }
 
     /// The only one of some; `None` where there is none.

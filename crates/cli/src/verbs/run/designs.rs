@@ -25,7 +25,7 @@ use super::{
 use crate::{
     error::{CliError, is_unit},
     folder::Staged,
-    input::{Input, title},
+    input::title,
     numbers::{bound, duration},
     operand::read_scene,
     origin,
@@ -102,7 +102,8 @@ pub(super) fn print_remarks(scenes: &[Named]) {
 /// Tells of every file that cannot be read, before any is solved.
 fn all_are_there(paths: &[PathBuf], terminal: Terminal) -> Result<(), CliError> {
     let files = paths.iter().filter(|path| path.as_os_str() != "-");
-    let mut unreadable: Vec<CliError> = files.filter_map(|path| Input::read(path).err()).collect();
+    let mut unreadable: Vec<CliError> =
+        files.filter_map(|path| Some(crate::input::read_input(path).err()?.into())).collect();
     let Some(last) = unreadable.pop() else { return Ok(()) };
     unreadable.iter().for_each(|error| terminal.fail("", error));
     Err(last)
@@ -376,7 +377,7 @@ impl Study for Designs {
                     let scene = &own.answer.scene;
                     let named = serde_json::json!({
                         "name": own.name, "title": scene.title, "file": scene.file,
-                        "sha256": origin::of_text(scene), "files": origin::of_files(scene),
+                        "sha256": origin::of_text(scene), "files": origin::of_files(scene, &crate::load),
                         "values": own.answer.changes.set,
                         "warnings": said::warning_objects(scene), "notes": said::note_objects(scene),
                     });

@@ -407,7 +407,7 @@ fn solve_all(
                 runs.push(report);
             }
             Ok(_) => {}
-            Err(error) => failed.push((own.method.name(), CliError::Run(error))),
+            Err(error) => failed.push((own.method.name(), error.into())),
         }
     }
     let (changes, plot) =

@@ -19,7 +19,7 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
         dashpot: VERSION,
         scene: object! {
             title: &scene.title, file: &scene.file,
-            sha256: origin::of_text(scene), files: origin::of_files(scene),
+            sha256: origin::of_text(scene), files: origin::of_files(scene, &crate::load),
             warnings: said::warning_objects(scene), notes: said::note_objects(scene),
         },
         settings: answer.asked.first().map(|asked| settings(answer, asked)),

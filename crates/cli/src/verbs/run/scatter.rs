@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     counts::SCATTERED,
-    error::CliError,
+    error::{CliError, StudyError},
     input,
     numbers::{self, MOST_DIGITS, Unit, rounded},
     output::each_once,
@@ -90,7 +90,8 @@ pub(crate) fn drawn(
             Err(_) => Change::Refused,
         };
     let ScatterArguments { sample, seed } = arguments;
-    Sample::of(&scene.text, sample, seed, &change, beside).map_err(CliError::Scene)
+    Sample::of(&scene.text, sample, seed, &change, beside)
+        .map_err(|faults| StudyError::Scene(faults).into())
 }
 
 /// How the text of a scene with scatter is read once more: what is set by a path, and all that has scatter, stands

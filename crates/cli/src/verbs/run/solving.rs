@@ -91,7 +91,7 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     let values = answer.scene.values.iter();
     rows.extend(values.map(|own| (format!("value {}", own.name), value_text(own))));
     let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
-    Table::plain("Settings", rows.chain(origin::rows(&answer.scene)))
+    Table::plain("Settings", rows.chain(origin::rows(&answer.scene, &crate::load)))
 }
 
 /// A named value as it is written; of what is computed its value besides.

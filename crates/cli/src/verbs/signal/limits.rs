@@ -9,7 +9,7 @@ use dashpot_signal::{
 use dashpot_units::{parse_dimension, si_unit};
 
 use super::{Signal, Signals};
-use crate::error::CliError;
+use crate::error::{CliError, StudyError};
 
 /// Words of measures of signals, with those of scenes that say the same.
 const SAME: [(&str, &[&str]); 4] = [
@@ -198,7 +198,7 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
                 None => format!("`{level}` is {}, in {}", given.0, given.1),
             };
             let reason = format!("`{}` is {own}, in {units}, and {given}", limit.key);
-            return Err(CliError::WrongSetting { name: "--limit".to_owned(), reason });
+            return Err(StudyError::WrongSetting { name: "--limit".to_owned(), reason }.into());
         }
         if !found.is_empty() {
             continue;

@@ -23,7 +23,7 @@ use self::{
 };
 use crate::{
     args::{frequency_class, paddings, positive, shift},
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::{Folder, Staged},
     input::{argument, setting},
     output::{Study, Text, emit},
@@ -151,7 +151,7 @@ impl SignalArguments {
     fn apply_to(&self, record: &Record) -> Result<(), CliError> {
         let wrong = |name: &str, reason: String| {
             let reason = format!("`{}`: {reason}", record.file);
-            Err(CliError::WrongSetting { name: name.to_owned(), reason })
+            Err(StudyError::WrongSetting { name: name.to_owned(), reason }.into())
         };
         let is_of = |of: Dimension| record.channels.iter().any(|own| own.channel.dimension() == of);
         if self.displacement.is_some() && !is_of(Dimension::FORCE) {
@@ -238,7 +238,7 @@ pub(crate) fn signal(arguments: &SignalArguments, terminal: Terminal) -> Result<
     let mut bar = Bar::new("signal", 0.0, terminal.error.attended);
     for (at, (path, stem)) in arguments.files.iter().zip(stems).enumerate() {
         if bar.count(at, arguments.files.len()).is_break() {
-            return Err(CliError::Ended);
+            return Err(StudyError::Ended.into());
         }
         let record = read::read(path, arguments)?;
         notes.extend(record.notes.iter().map(|own| format!("{}: {own}", record.file)));
@@ -325,7 +325,7 @@ impl Signals {
                 "no channel that is read is an axis {0} by its name, as `Head {0}`",
                 axis.letter()
             );
-            Err(CliError::WrongSetting { name: "--guided".to_owned(), reason })
+            Err(StudyError::WrongSetting { name: "--guided".to_owned(), reason }.into())
         })
     }
 

@@ -11,7 +11,7 @@ use dashpot_signal::{
 
 use super::{SignalArguments, mme};
 use crate::{
-    error::{CliError, reason},
+    error::{CliError, StudyError, reason},
     input::bytes_of,
 };
 
@@ -123,11 +123,11 @@ pub(super) fn read(path: &Path, wanted: &SignalArguments) -> Result<Record, CliE
 /// `--units` of a file that says them all.
 fn no_units(file: &str) -> CliError {
     let reason = format!("`{file}` says the units of all its channels");
-    CliError::WrongSetting { name: "--units".to_owned(), reason }
+    StudyError::WrongSetting { name: "--units".to_owned(), reason }.into()
 }
 
 fn in_table(file: &str, fault: TableError) -> CliError {
-    CliError::MeasuredTable { file: file.to_owned(), fault: Box::new(fault) }
+    StudyError::MeasuredTable { file: file.to_owned(), fault: Box::new(fault) }.into()
 }
 
 /// Refuses units of columns that say another one, or that are not there, and of a file that says them all.
@@ -144,7 +144,7 @@ fn units_are_wanted(file: &str, table: &DataTable<'_>, units: &[String]) -> Resu
             Some(_) => continue,
         };
         let reason = format!("`{file}`: {reason}");
-        return Err(CliError::WrongSetting { name: "--units".to_owned(), reason });
+        return Err(StudyError::WrongSetting { name: "--units".to_owned(), reason }.into());
     }
     let is_known = (0..count).all(|at| table.heading(at).unit.is_some());
     if is_known && !units.is_empty() { Err(no_units(file)) } else { Ok(()) }

@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::{SweepArguments, Varied};
 use crate::{
     args::When,
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::{Folder, Staged},
     input::title,
     numbers::{Unit, digits, percent_signed, quantity},
@@ -98,7 +98,7 @@ fn at_point(
     threads: usize,
     pose: &PoseValues<'_>,
 ) -> Result<GradientReport, CliError> {
-    let tunables = Tunables::of(text, scene.file.as_deref()).map_err(CliError::Scene)?;
+    let tunables = Tunables::of(text, scene.file.as_deref()).map_err(StudyError::Scene)?;
     let numbers = list(places.iter().map(|&at| {
         let own = &tunables.all()[at];
         let unit = match own.dimension {
@@ -158,7 +158,7 @@ impl Study for Gradients {
         let points = self.reports.iter().enumerate();
         object! {
             #[serde(flatten)]
-            head: origin::head(&self.scene),
+            head: origin::head(&self.scene, &crate::load),
             varied: list(self.varied.variations.iter().map(|own| &own.name)),
             points: list(points.map(|(at, report)| object! {
                 at: self.values(at), #[serde(flatten)] report,

@@ -40,9 +40,9 @@ impl Identity {
         ];
         let asked = own.chain(more).map(|(name, own)| (name.to_owned(), own));
         let table = arguments.points.as_ref().map(|own| own.to_string_lossy());
-        let table = table.and_then(|own| origin::of_file(&own));
+        let table = table.and_then(|own| origin::of_file(&own, &crate::load));
         let table = table.map(|own| ("the table of designs".to_owned(), own));
-        let files = origin::of_files(scene).into_iter();
+        let files = origin::of_files(scene, &crate::load).into_iter();
         let files = files.map(|own| (format!("`{}`", own.file), own.sha256));
         let text = ("the scene".to_owned(), origin::of_text(scene));
         Self {

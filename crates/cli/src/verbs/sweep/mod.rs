@@ -43,10 +43,11 @@ use self::{
     varied::{Form, Varied},
     words::{notes, summary},
 };
+use crate::input::AsCommanded as _;
 use crate::{
     args::{When, refuse},
     counts::{SWEEP_POINTS, check_memory},
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::Staged,
     input::{Input, title},
     numbers::counted,
@@ -168,9 +169,9 @@ struct Asked {
 
 impl Asked {
     fn read(arguments: &SweepArguments, terminal: Terminal) -> Result<Self, CliError> {
-        let input = Input::of(arguments.scene.scene.as_deref())?;
+        let input = crate::input::of(arguments.scene.scene.as_deref())?;
         let set = &arguments.scene.values.set;
-        let checked = read(input.text()?, &input.options(set)).map_err(CliError::Scene)?;
+        let checked = read(input.text()?, &input.options(set)).map_err(StudyError::Scene)?;
         terminal.diagnose(&checked.warnings);
         let scene = checked.value;
         let varied = Varied::of(arguments, &scene.text, &input.file)?;
@@ -182,7 +183,7 @@ impl Asked {
             |own: &&(String, String)| scene.values.iter().any(|known| known.name == own.0);
         let set: Vec<(String, String)> = set.iter().filter(is_named).cloned().collect();
         let grid =
-            varied.grid().ok_or(CliError::TooMany { of: "points", most: SWEEP_POINTS.most() })?;
+            varied.grid().ok_or(StudyError::TooMany { of: "points", most: SWEEP_POINTS.most() })?;
         Ok(Self { input, set, scene, known: checked.warnings.list, varied, grid })
     }
 }
@@ -264,14 +265,14 @@ fn of_ends(
     let ends = points.into_iter().map(|point| {
         let text = varied.text_at(&grid.places(point));
         let options = ReadOptions { bare, ..input.options(set) };
-        let found = read(&text, &options).map_err(CliError::Scene);
+        let found = read(&text, &options).map_err(StudyError::Scene);
         // One end tells of numbers without a unit, but where they are refused.
         if found.is_ok() && bare == BareNumbers::Warned {
             bare = BareNumbers::Silent;
         }
         (point, found)
     });
-    let mut ends: Vec<(usize, Result<Checked<Scene>, CliError>)> = list(ends);
+    let mut ends: Vec<(usize, Result<Checked<Scene>, StudyError>)> = list(ends);
     let has_words = varied.variations.iter().any(Variation::is_of_words);
     if !has_words && ends.iter().any(|own| own.1.is_ok()) {
         ends.retain(|own| own.1.is_ok());
@@ -352,7 +353,7 @@ impl Study for Swept {
         }));
         object! {
             #[serde(flatten)]
-            head: origin::head(scene),
+            head: origin::head(scene, &crate::load),
             listed: self.varied.is_of_rows(),
             parameters,
             asked: self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect::<Pairs<_, _>>(),

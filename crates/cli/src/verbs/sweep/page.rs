@@ -113,5 +113,5 @@ fn settings(swept: &Swept) -> Table {
     let asked = swept.asked.iter().map(|(name, value)| (*name, value.clone()));
     let rows = own.into_iter().chain(asked).filter(|own| !own.1.is_empty());
     let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
-    Table::plain("Settings", rows.chain(origin::rows(&swept.scene)))
+    Table::plain("Settings", rows.chain(origin::rows(&swept.scene, &crate::load)))
 }

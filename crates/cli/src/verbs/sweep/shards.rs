@@ -137,9 +137,10 @@ pub(super) fn place(text: &str) -> Result<Place, String> {
 pub(super) fn fingerprint(arguments: &SweepArguments, scene: &Scene, columns: &[Column]) -> String {
     // Another name of the same file makes no difference.
     let mut asked = arguments.clone();
-    let points = asked.points.take().map(|own| origin::of_file(&own.to_string_lossy()));
+    let points =
+        asked.points.take().map(|own| origin::of_file(&own.to_string_lossy(), &crate::load));
     asked.scene.scene = None;
-    let files = list(origin::of_files(scene).into_iter().map(|own| own.sha256));
+    let files = list(origin::of_files(scene, &crate::load).into_iter().map(|own| own.sha256));
     let columns = list(columns.iter().map(|own| (&own.key, own.is_share)));
     let all = (VERSION, origin::of_text(scene), files, asked, points, columns);
     origin::sha256(serde_json::to_string(&all).unwrap_or_default().as_bytes())

@@ -8,8 +8,8 @@ use dashpot_scene::{DataTable, LeftOut, Listed, ListedFault, TunableFault, Tunab
 use super::SweepArguments;
 use crate::{
     counts::SWEEP_POINTS,
-    error::CliError,
-    input::{Input, bare_numbers},
+    error::{CliError, StudyError},
+    input::bare_numbers,
     terminal::note,
 };
 
@@ -39,7 +39,7 @@ pub(super) enum Form {
 
 /// The designs in a file; lines of it that are left out are told.
 fn listed(file: &Path) -> Result<Listed, CliError> {
-    let input = Input::read(file)?;
+    let input = crate::input::read_input(file)?;
     let text = input.table_text();
     let fault = |fault| CliError::Listed { file: file.to_owned(), fault: Box::new(fault) };
     let designs = Variation::listed(&text).map_err(fault)?;
@@ -52,7 +52,7 @@ fn listed(file: &Path) -> Result<Listed, CliError> {
 impl Varied {
     /// What the command line names of the scene with this text.
     pub(super) fn of(arguments: &SweepArguments, text: &str, file: &str) -> Result<Self, CliError> {
-        let tunables = Tunables::of(text, Some(file)).map_err(CliError::Scene)?;
+        let tunables = Tunables::of(text, Some(file)).map_err(StudyError::Scene)?;
         if let Some(file) = &arguments.points {
             return Self::of_designs(tunables, file);
         }

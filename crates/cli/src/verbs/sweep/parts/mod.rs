@@ -279,7 +279,7 @@ impl Study for Parts<'_> {
         }));
         object! {
             #[serde(flatten)]
-            head: origin::head(scene),
+            head: origin::head(scene, &crate::load),
             sweep: &self.wanted.sweep,
             listed: varied.is_of_rows(),
             parameters,

@@ -1,24 +1,21 @@
-//! What the rheometer writes into a folder.
+//! What tests have shown as figures, and as tables for programs.
 
 use std::f64::consts::TAU;
 
-use dashpot_analysis::rheometer::{LoadUnload, RheometerReport, Series};
+use dashpot_analysis::rheometer::{LoadUnload, PROTOCOLS, RheometerReport, Series};
 use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{
     Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
     figures::model::{LOSS_FACTOR, MODEL_FIGURES, SWEEP},
 };
-use dashpot_report::ReportFigure;
+use dashpot_report::{
+    layout::capital,
+    numbers::{percent_signed, share},
+};
 use dashpot_rheology::MaxwellForm;
 
-use super::{Made, Tested, Units, beside::MeasuredLoop, page::page};
-use crate::{
-    error::CliError,
-    folder::Staged,
-    numbers::{percent_signed, share},
-    output::{PAGE, csv, list},
-    text::capital,
-};
+use super::{Made, Tested, Units, beside::MeasuredLoop, variants::MOST_VARIANTS};
+use crate::{DataTable, list};
 
 /// Points of a curve of a model, and how far beyond its times it goes.
 const POINTS: i32 = 400;
@@ -64,11 +61,15 @@ fn measured_under_force(measured: Measured) -> bool {
     matches!(measured, Measured::Deformation | Measured::Strain)
 }
 
-/// The files of these tests.
-pub(super) fn names(tests: impl Iterator<Item = String>) -> Vec<String> {
+/// The names of all files that there may be.
+pub(super) fn files() -> Vec<String> {
     let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name));
+    let tests = PROTOCOLS.iter().flat_map(|protocol| {
+        let variants = (1..=MOST_VARIANTS).map(|at| format!("{}-{at}", protocol.word));
+        [protocol.word.to_owned()].into_iter().chain(variants)
+    });
     let tests = tests.flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
-    models.chain(tests).chain([PAGE.to_owned()]).collect()
+    models.chain(tests).collect()
 }
 
 /// The figures of tests that differ in the values of their parameters alone, with the names of their files: of loops
@@ -121,26 +122,8 @@ fn subject(units: Units) -> ModelSubject {
     if units.is_material { ModelSubject::Material } else { ModelSubject::Pad }
 }
 
-/// Adds all files but the result.
-pub(super) fn write(files: &mut Staged<'_>, tested: &Tested) -> Result<(), CliError> {
-    for made in &tested.tests {
-        let columns = columns(&made.report, tested.units);
-        let header = columns.iter().map(|column| column.0.clone());
-        let value = |own: &(String, Vec<Option<f64>>), row: usize| {
-            // A zero has no sign, and what is infinite no number.
-            own.1.get(row).copied().flatten().filter(|own| own.is_finite()).map(|own| own + 0.0)
-        };
-        let rows = 0..made.report.abscissa.values.len();
-        let rows = rows.map(|row| list(columns.iter().map(|column| value(column, row))));
-        files.add_with(format!("{}.csv", made.name), |out| csv(out, header, rows))?;
-    }
-    let figures = figures(tested)?;
-    files.add(PAGE, page(tested, figures.iter().map(|own| own.1.clone()).collect()).html())?;
-    figures.into_iter().try_for_each(|(name, own)| files.add(format!("{name}.svg"), own.svg))
-}
-
 /// The figures of the model and those of the tests, with the names of their files.
-fn figures(tested: &Tested) -> Result<Vec<(String, ReportFigure)>, CliError> {
+pub(super) fn figures(tested: &Tested) -> Vec<(String, Chart)> {
     let curves = curves(tested);
     let of_model = curves.iter().flat_map(|curves| {
         MODEL_FIGURES.iter().map(|own| {
@@ -151,8 +134,7 @@ fn figures(tested: &Tested) -> Result<Vec<(String, ReportFigure)>, CliError> {
     });
     let groups = tested.groups();
     let of_tests = groups.flat_map(|group| charts(group, tested.measured.as_ref(), tested.units));
-    let all = of_model.chain(of_tests);
-    all.map(|(name, chart)| Ok((name, ReportFigure::of(&chart)?))).collect()
+    of_model.chain(of_tests).collect()
 }
 
 /// The functions of a linear model, and what a sweep of the network found.
@@ -195,20 +177,25 @@ fn curves(tested: &Tested) -> Option<Vec<ModelSeries>> {
     Some([model].into_iter().chain(network).collect())
 }
 
-/// All that a test has found, in columns.
-fn columns(report: &RheometerReport, units: Units) -> Vec<(String, Vec<Option<f64>>)> {
+/// All that a test has shown, in columns.
+pub(super) fn table(made: &Made, units: Units) -> DataTable<'_> {
+    let report = &made.report;
     let header = |name: &str, unit| format!("{name} [{}]", units.of(unit));
-    let all = |values: &[f64]| values.iter().copied().map(Some).collect();
-    let given = [Some(&report.abscissa), report.drive.as_ref()].into_iter().flatten();
-    let given = given.map(|given| (header(&given.name, given.unit), all(&given.values)));
-    let found = report.series.iter().flat_map(|series| {
-        let computed = series.computed.iter().zip(&report.computations).map(|(own, by)| {
+    let all = |values: &[f64]| values.iter().copied().map(Some).collect::<Vec<_>>();
+    let driven = [Some(&report.abscissa), report.drive.as_ref()].into_iter().flatten();
+    let driven = driven.map(|driven| (header(&driven.name, driven.unit), all(&driven.values)));
+    let answers = report.series.iter().flat_map(|series| {
+        let computed = series.computed.iter().zip(&report.computations).map(|(answer, by)| {
             let name = format!("{} by {}", series.name, by.method);
-            (header(&name, series.unit), own.values.clone())
+            (header(&name, series.unit), answer.values.clone())
         });
         let model = (header(series.name, series.unit), all(&series.model));
         let model = Some(model).filter(|_| !series.model.is_empty());
         list(model.into_iter().chain(computed))
     });
-    list(given.chain(found))
+    let (header, columns): (Vec<_>, Vec<_>) = driven.chain(answers).unzip();
+    let cell = |column: &Vec<Option<f64>>, row: usize| column.get(row).copied().flatten();
+    let rows = (0..report.abscissa.values.len())
+        .map(move |row| list(columns.iter().map(|column| cell(column, row))));
+    DataTable { file: format!("{}.csv", made.name), header, rows: Box::new(rows) }
 }

@@ -1,12 +1,28 @@
-//! Tests as objects for programs.
+//! What tests have shown as an object for programs.
 
 use dashpot_analysis::rheometer::{Note, Obstacle, RheometerReport, Series};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::{Made, Units, beside};
-use crate::output::{list, object};
+use super::{Made, Tested, Units, beside, tables::spectra};
+use crate::{VERSION, list, object};
 
-pub(super) fn test(made: &Made, units: Units) -> impl Serialize {
+impl Serialize for Tested {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [relaxation, retardation] = spectra(&self.specimen);
+        let object = object! {
+            dashpot: VERSION,
+            model: &self.word,
+            material: self.units.is_material,
+            nonlinear: self.specimen.nonlinear(),
+            relaxation_spectrum: relaxation,
+            retardation_spectrum: retardation,
+            tests: list(self.tests.iter().map(|made| test(made, self.units))),
+        };
+        object.serialize(serializer)
+    }
+}
+
+fn test(made: &Made, units: Units) -> impl Serialize {
     let report = &made.report;
     object! {
         test: report.protocol,

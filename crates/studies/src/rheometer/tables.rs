@@ -1,15 +1,15 @@
 //! What was found as tables and in words.
 
 use dashpot_analysis::rheometer::{Computation, Figure, RheometerReport, Setting, Specimen};
-use dashpot_report::Table;
+use dashpot_report::{
+    Table,
+    numbers::{Unit, bound, constant, digits, quantity, rounded},
+};
 use dashpot_rheology::{KelvinForm, MaxwellForm};
 use serde::Serialize;
 
 use super::{Made, STRAIN_RATE, Units};
-use crate::{
-    numbers::{Unit, bound, constant, digits, quantity, rounded},
-    output::list,
-};
+use crate::list;
 
 /// Digits of what is measured.
 const DIGITS: usize = 6;

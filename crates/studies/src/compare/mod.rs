@@ -1,121 +1,122 @@
-//! `dashpot compare`.
+//! Whether two models or networks are the same from outside, by their poles.
 
-mod found;
-mod words;
+mod report;
+mod result;
 
-use clap::Args;
 use dashpot_analysis::{RunReport, Solve, SolveSettings, differences};
 use dashpot_network::{
     Model,
     driving_point::{Agreement, Hidden, Receptance, Response},
     primitive,
 };
+use dashpot_report::Report;
 use dashpot_rheology::{equivalence, identifiability::Entangled, sensitivity::sensitivity};
-use serde::Serialize;
 
-use self::{
-    found::{About, Cancelled, Comparison, Form, Impact, Map, Measured, Together, Worst},
-    words::sentences,
+pub use self::result::{
+    About, Cancelled, Comparison, Constant, Form, Impact, Map, Measured, Together, Worst,
 };
 use crate::{
-    args::ValueArguments,
-    error::{CliError, Status},
+    Answer, Context, Given, Operands, OptionInfo, Outcome, Request, Study, StudyError,
     non_identifiable::{combinations, groups},
-    operand::{Operand, Subject, canonical_model, note_means, parted, read_scene},
-    output::{Study, Text, emit},
-    terminal::{Terminal, Tone},
+    operand::{Operand, Subject, canonical_model, parted, remark_means},
+    request,
+    study::{self, about_study},
 };
 
-/// Maps of more parameters than this are in the JSON only.
-const MOST_SHOWN: usize = 8;
 /// Models of more parts than this have no map: it would take longer than all else.
 const MOST_MAPPED: usize = 120;
-
 /// What may be compared.
 const OPERAND: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; \
                        FILE alone if it has one model; FILE:NODE,NODE for the response of a \
                        whole network at two of its nodes";
 
-/// `compare`.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  \
-    dashpot compare pads.toml:burgers pads.toml:two-maxwell\n  \
-    dashpot compare pads.toml:felt fibre.toml:felt --impact reference:padding\n  \
-    dashpot compare bridge.toml:face,ground pads.toml:felt\n  \
-    dashpot compare old.toml:head,ground new.toml:head,ground\n\n\
-    `Same` means that all poles and residues agree within 1e-11, relatively.\n\n\
-    Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong.")]
-pub(crate) struct CompareArguments {
-    /// The model.
-    #[arg(value_name = "FIRST", help = OPERAND)]
-    first: String,
-    /// The other one.
-    #[arg(value_name = "SECOND")]
-    second: String,
-    /// Scene and element: solves this impact with each of the models in the element's place, and
-    /// compares what is measured.
-    #[arg(long, value_name = "SCENE:ELEMENT")]
-    impact: Option<String>,
-    #[command(flatten)]
-    values: ValueArguments,
-    /// Prints one JSON object, in SI units, in place of text.
-    #[arg(long)]
-    json: bool,
+request! {
+    /// How two models are compared.
+    pub CompareRequest {
+        /// Scene and element: solves this impact with each of the models in the element's place, and
+        /// compares what is measured.
+        impact "SCENE:ELEMENT": Option<String>;
+    }
 }
 
 /// Says whether two models are the same.
-pub(crate) fn compare(
-    arguments: &CompareArguments,
-    terminal: Terminal,
-) -> Result<Status, CliError> {
-    let set = &arguments.values.set;
-    let operands =
-        [&arguments.first, &arguments.second].map(|word| Operand::read(word, set, terminal));
-    let [first, second] = operands;
-    let operands = [first?, second?];
+///
+/// # Errors
+///
+/// [`StudyError::MaterialAndPad`] for a material and a pad, [`StudyError::Undecided`] where rounding leaves it open, and what
+/// is wrong with the impact.
+pub fn compare(
+    operands: &[Operand; 2],
+    request: &CompareRequest,
+    set: &[(String, String)],
+    context: &mut dyn Context,
+) -> Result<Comparison, StudyError> {
     if operands[0].is_material() != operands[1].is_material() {
-        return Err(CliError::MaterialAndPad);
+        return Err(StudyError::MaterialAndPad);
     }
-    let mut found = compared(&operands)?;
-    found.models = operands.iter().map(about).collect::<Result<_, _>>()?;
+    let mut comparison = compared(operands)?;
+    comparison.models = operands.iter().map(about).collect::<Result<_, _>>()?;
     if let (true, [Some(first), Some(second)]) =
-        (found.same, [&operands[0], &operands[1]].map(Operand::model))
+        (comparison.same, [&operands[0], &operands[1]].map(Operand::model))
     {
-        found.map = map(first, second);
+        comparison.map = map(first, second);
     }
-    if let Some(impact) = &arguments.impact {
-        found.impact = Some(same_impact(impact, &operands, set, terminal)?);
+    if let Some(impact) = &request.impact {
+        comparison.impact = Some(same_impact(impact, operands, set, context)?);
     }
-    emit(&found, arguments.json, None, terminal)?;
-    Ok(if found.same { Status::Done } else { Status::NotSame })
+    Ok(comparison)
 }
 
-impl Study for Comparison {
-    fn text(&self, text: &mut Text) {
-        let [first, second] = &self.compared;
-        let (verdict, tone) =
-            if self.same { ("The same", Tone::Heading) } else { ("Not the same", Tone::Warning) };
-        text.begun(tone, verdict, &format!(": {first} and {second}"));
-        text.paragraphs(sentences(self));
-        let small = self.map.as_ref().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table);
-        let impact = self.impact.as_ref().map(Impact::table);
-        let tables = self.forms.iter().map(Form::table).chain(small).chain(impact);
-        tables.for_each(|table| text.table(&table));
+impl Answer for Comparison {
+    fn report(&self) -> Report {
+        report::report(self)
     }
 
-    fn object(&self) -> impl Serialize {
-        self
+    fn outcome(&self) -> Outcome {
+        if self.same { Outcome::Done } else { Outcome::NotSame }
     }
 }
 
-fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
+/// The study.
+pub(crate) struct Compare;
+
+impl Study for Compare {
+    about_study! {
+        "compare", CompareRequest, Operands::Models(&[("first", OPERAND), ("second", "The other one")]),
+        "Says whether two models or networks are the same from outside, by their poles",
+        "Examples:\n  \
+         dashpot compare pads.toml:burgers pads.toml:two-maxwell\n  \
+         dashpot compare pads.toml:felt fibre.toml:felt --impact reference:padding\n  \
+         dashpot compare bridge.toml:face,ground pads.toml:felt\n  \
+         dashpot compare old.toml:head,ground new.toml:head,ground\n\n\
+         `Same` means that all poles and residues agree within 1e-11, relatively.\n\n\
+         Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong."
+    }
+
+    fn files(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn solve(
+        &self,
+        (operands, set): (&[String], &[(String, String)]),
+        given: &[(String, Given)],
+        context: &mut dyn Context,
+    ) -> Result<Box<dyn Answer>, StudyError> {
+        let request = study::request(given)?;
+        let [first, second] = study::models(operands, set, context)?;
+        Ok(Box::new(compare(&[first, second], &request, set, context)?))
+    }
+}
+
+fn compared(operands: &[Operand; 2]) -> Result<Comparison, StudyError> {
     let words = [&operands[0], &operands[1]].map(|own| own.word.clone());
     let is_material = operands[0].is_material();
     if let [Some(first), Some(second)] = [&operands[0].linear()?, &operands[1].linear()?] {
         let found = equivalence::compare(first, second);
         let error = operands.iter().map(Operand::error).fold(0.0, f64::max);
         if !found.is_same && error > equivalence::SAME_WITHIN {
-            return Err(CliError::Undecided { error });
+            return Err(StudyError::Undecided { error });
         }
         return Ok(Comparison::of(words, is_material, &found));
     }
@@ -138,13 +139,13 @@ fn compared(operands: &[Operand; 2]) -> Result<Comparison, CliError> {
             let frequency = Some(omega / std::f64::consts::TAU);
             comparison.worst = Some(Worst { frequency, response: size, time: None, creep: None });
         }
-        Agreement::Undecided { error } => return Err(CliError::Undecided { error }),
+        Agreement::Undecided { error } => return Err(StudyError::Undecided { error }),
     }
     Ok(comparison)
 }
 
 /// What is known of one operand by itself.
-fn about(operand: &Operand) -> Result<About, CliError> {
+fn about(operand: &Operand) -> Result<About, StudyError> {
     let linear = operand.linear()?;
     let hidden = |hidden: &Hidden| Cancelled { pole: hidden.rate, count: hidden.count };
     let mut cancelled: Vec<Cancelled> = match &operand.subject {
@@ -197,22 +198,21 @@ fn same_impact(
     word: &str,
     operands: &[Operand; 2],
     set: &[(String, String)],
-    terminal: Terminal,
-) -> Result<Impact, CliError> {
-    let (path, element) = parted(word);
-    let scene = read_scene(Some(std::path::Path::new(path)), set, terminal)?;
-    note_means(&scene);
+    context: &mut dyn Context,
+) -> Result<Impact, StudyError> {
+    let (path, element) = parted(word, context);
+    let scene = context.input(path)?.scene(set, context)?;
+    remark_means(&scene, context);
     let names = || scene.network.connections().iter().map(|connection| connection.name.clone());
     let element =
         if element.is_empty() { names().next().unwrap_or_default() } else { element.to_owned() };
-    let at = names().position(|name| name == element).ok_or_else(|| CliError::UnknownElement {
-        name: element.clone(),
-        known: names().collect(),
+    let at = names().position(|name| name == element).ok_or_else(|| {
+        StudyError::UnknownElement { name: element.clone(), known: names().collect() }
     })?;
     let settings = SolveSettings { measures: Vec::new(), ..scene.settings("auto")? };
-    let run = |operand: &Operand| -> Result<RunReport, CliError> {
+    let run = |operand: &Operand| -> Result<RunReport, StudyError> {
         if operand.is_material() {
-            return Err(CliError::MaterialInImpact { word: operand.word.clone() });
+            return Err(StudyError::MaterialInImpact { word: operand.word.clone() });
         }
         let mut network = scene.network.clone();
         network.set_model(at, canonical_model(operand)?);

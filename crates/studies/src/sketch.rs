@@ -16,17 +16,17 @@ use dashpot_report::ReportFigure;
 use dashpot_rheology::Tree;
 use dashpot_scene::Scene;
 
-use crate::numbers::{constant, rounded};
+use dashpot_report::numbers::{constant, rounded};
 
 /// Digits of what is computed from a driving function.
 const DIGITS: usize = 4;
 
 /// Networks of more elements are not drawn: nothing could be read off the drawing.
-pub(crate) const MOST_DRAWN: usize = 500;
+pub const MOST_DRAWN: usize = 500;
 
 /// The drawing of a network with what its effects put into it; motions and loads are described over
 /// a run of `duration` \[s\].
-pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
+pub fn sketch(network: &Network, duration: f64) -> Sketch {
     let built = Built::of(network);
     let network = &built.network;
     let used = |id: NodeId| {
@@ -56,7 +56,7 @@ pub(crate) fn sketch(network: &Network, duration: f64) -> Sketch {
 }
 
 /// The drawing of a scene for a page, unless there is too much to be drawn.
-pub(crate) fn figure(scene: &Scene) -> Option<ReportFigure> {
+pub fn figure(scene: &Scene) -> Option<ReportFigure> {
     of_network(&scene.network, scene.run.duration)
 }
 
@@ -66,7 +66,7 @@ pub fn drawing(scene: &Scene) -> Option<String> {
 }
 
 /// The drawing of a network for a page, likewise.
-pub(crate) fn of_network(network: &Network, duration: f64) -> Option<ReportFigure> {
+pub fn of_network(network: &Network, duration: f64) -> Option<ReportFigure> {
     let is_drawn = network.connections().len() <= MOST_DRAWN;
     is_drawn.then(|| ReportFigure::of_sketch("The network", sketch(network, duration).svg()))
 }
@@ -137,7 +137,7 @@ fn node(built: &Built, id: NodeId, node: &Node, duration: f64) -> SketchNode {
 }
 
 /// A driving function in words, over a run of `duration` \[s\].
-pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
+pub fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
     let pieces = waveform.pieces();
     let most = || rounded(waveform.bound(duration), si, DIGITS);
     let is_wave_only = |piece: &Piece| {
@@ -185,7 +185,7 @@ pub(crate) fn waveform(waveform: &Waveform, si: &str, duration: f64) -> String {
 }
 
 /// An element's constant, where it has one.
-pub(crate) fn element(element: &dyn Element) -> String {
+pub fn element(element: &dyn Element) -> String {
     match element.law() {
         Law::Spring(stiffness) => constant(stiffness, "N/m"),
         Law::Dashpot(damping) => constant(damping, "N s/m"),

@@ -1,31 +1,106 @@
-//! What was found as tables and in words.
+//! What shaking has shown, as tables, figures and in words.
 
 use std::f64::consts::PI;
 
 use dashpot_analysis::vibration::{
-    Drive, DriveKind, QUANTITIES, Quantity, Steady, Sweep, Swing, Transmission,
+    Drive, DriveKind, QUANTITIES, Quantity, Steady, Sweep, Swing, Transmission, VibrationWarning,
 };
-use dashpot_report::Table;
-
-use crate::{
+use dashpot_plot::{VibrationCurve, VibrationSeries};
+use dashpot_report::{
+    Block, Place, Report, Table,
+    layout::{WIDTH, capital, width},
     numbers::{Unit, bound, quantity},
-    text::{capital, width},
 };
+use dashpot_units::STANDARD_GRAVITY as GRAVITY;
+
+use super::Vibrated;
+use crate::{DataTable, list};
+
+/// Ratios and phases at all frequencies.
+const TABLE: &str = "response.csv";
+const PHASE: &str = "phase.svg";
+/// Digits in the text of a peak.
+const PEAK_DIGITS: usize = 3;
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
 /// More rows of a table are left out; of frequencies at regular distances.
 const MOST_ROWS: usize = 25;
-use dashpot_units::STANDARD_GRAVITY as GRAVITY;
 /// What does not exist.
 const NONE: &str = "–";
 
-pub(super) fn degrees(phase: f64) -> f64 {
+/// Everything that is said of it.
+pub(super) fn report(vibrated: &Vibrated) -> Report {
+    let Vibrated { sweep, steady, page, .. } = vibrated;
+    let mut report = Report::titled(&page.title);
+    report.asked.push(drive(sweep));
+    if let Some(state) = steady {
+        report.warnings.extend(state.warnings.iter().map(VibrationWarning::to_string));
+        report.tables(self::steady(state));
+        report.tables(vibrated.is_chosen.then(|| ratios(sweep, state.frequency)));
+        report.notes(steady_notes(state));
+    }
+    report.tables([modes(sweep), resonances(sweep)]);
+    report.notes(range_notes(sweep));
+    report.notes(sweep.notes.iter().map(VibrationWarning::to_string));
+    if steady.is_none() {
+        let (content, left_out) = response(sweep, WIDTH - 2);
+        report.block(Place::Terminals, Block::Table(content));
+        let notes = left_out.map(|left_out| format!("{left_out}; `--out` writes all of them"));
+        report.block(Place::Terminals, Block::Notes(list(notes)));
+    }
+    for series in series(sweep) {
+        report.plot(figure(&series.quantity), series.ratio_chart());
+    }
+    let phases = of(sweep, String::new(), "", |shown| shown.has_phase);
+    if !phases.curves.is_empty() {
+        report.figure(PHASE, phases.phase_chart());
+    }
+    report.details = vec![response(sweep, usize::MAX).0, page.settings.clone()];
+    report.network.clone_from(&page.network);
+    report.scene_text.clone_from(&page.scene_text);
+    report
+}
+
+/// The names of all files that there may be.
+pub(super) fn files() -> Vec<String> {
+    let kinds = [DriveKind::Motion, DriveKind::Load];
+    let titles = kinds.map(|kind| QUANTITIES.iter().map(move |quantity| title(quantity, kind)));
+    let figures = titles.into_iter().flatten().map(|title| figure(&title));
+    figures.chain([PHASE, TABLE].map(str::to_owned)).collect()
+}
+
+fn figure(title: &str) -> String {
+    format!("{}.svg", title.replace(' ', "-"))
+}
+
+/// Ratios and phases at all frequencies.
+pub(super) fn table(sweep: &Sweep) -> DataTable<'_> {
+    let all = &sweep.transmissions;
+    let header = all.iter().flat_map(|Transmission { name, unit, .. }| {
+        [("ratio", *unit), ("phase", "deg"), ("error", *unit)]
+            .map(|(what, unit)| format!("{what} of {name} [{unit}]"))
+    });
+    let header = ["frequency [Hz]".to_owned()].into_iter().chain(header);
+    let row = |(at, frequency): (usize, &f64)| {
+        let values = all.iter().flat_map(|transmission| {
+            let swing = transmission.swings[at];
+            let phase = swing.filter(|_| transmission.has_phase);
+            let phase = phase.map(|swing| degrees(swing.phase));
+            [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
+        });
+        list([Some(*frequency)].into_iter().chain(values))
+    };
+    let rows = sweep.frequencies.iter().enumerate().map(row);
+    DataTable { file: TABLE.to_owned(), header: list(header), rows: Box::new(rows) }
+}
+
+fn degrees(phase: f64) -> f64 {
     phase * (180.0 / PI)
 }
 
 /// What is driven, and what the ratios are.
-pub(super) fn drive(sweep: &Sweep) -> String {
+fn drive(sweep: &Sweep) -> String {
     let Drive { name, node, kind } = &sweep.drive;
     let (driven, amplitude) = match kind {
         DriveKind::Motion => (format!("motion of `{name}`"), "displacement"),
@@ -41,14 +116,14 @@ pub(super) fn drive(sweep: &Sweep) -> String {
 }
 
 /// The quantities of all responses, each once.
-pub(super) fn quantities(sweep: &Sweep) -> Vec<&'static Quantity> {
+fn quantities(sweep: &Sweep) -> Vec<&'static Quantity> {
     let is_shown =
         |own: &&Quantity| sweep.transmissions.iter().any(|shown| shown.quantity == own.word);
     QUANTITIES.iter().filter(is_shown).collect()
 }
 
 /// The name of a quantity in words.
-pub(super) fn title(quantity: &Quantity, drive: DriveKind) -> String {
+fn title(quantity: &Quantity, drive: DriveKind) -> String {
     if quantity.word == drive.usual().word {
         return "transmissibility".to_owned();
     }
@@ -68,7 +143,7 @@ fn hertz(value: f64) -> String {
 }
 
 /// The modes, each with what its masses do.
-pub(super) fn modes(sweep: &Sweep) -> Table {
+fn modes(sweep: &Sweep) -> Table {
     let names = sweep.modes.iter().find_map(|mode| mode.shape.as_ref());
     let names: Vec<&str> =
         names.map(|all| all.iter().map(|own| own.node.as_str()).collect()).unwrap_or_default();
@@ -102,7 +177,7 @@ fn part_of_mode(swing: Swing) -> String {
 }
 
 /// The resonances of every response, up to a number of them.
-pub(super) fn resonances(sweep: &Sweep) -> Table {
+fn resonances(sweep: &Sweep) -> Table {
     let rows = sweep.transmissions.iter().flat_map(|transmission| {
         transmission.resonances.iter().map(|resonance| {
             let none = || NONE.to_owned();
@@ -125,7 +200,7 @@ pub(super) fn resonances(sweep: &Sweep) -> Table {
 }
 
 /// What is to be known beside the tables, in whole sentences.
-pub(super) fn range_notes(sweep: &Sweep) -> Vec<String> {
+fn range_notes(sweep: &Sweep) -> Vec<String> {
     let all = || sweep.transmissions.iter();
     let mut range_notes = Vec::new();
     let still: Vec<&str> =
@@ -166,7 +241,7 @@ fn limits(all: &[Transmission]) -> String {
 }
 
 /// Ratios and phases over frequency, as many responses as fit into so many columns, and a word on what is left out.
-pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
+fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
     let total = sweep.frequencies.len();
     let count = total.min(MOST_ROWS);
     let places: Vec<usize> =
@@ -208,7 +283,7 @@ pub(super) fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>)
 }
 
 /// The peaks of the steady state.
-pub(super) fn steady(steady: &Steady) -> Vec<Table> {
+fn steady(steady: &Steady) -> Vec<Table> {
     let unit = steady.drive.kind.unit();
     let amplitude = quantity(steady.amplitude, unit, DIGITS);
     let name = &steady.drive.name;
@@ -251,7 +326,7 @@ pub(super) fn steady(steady: &Steady) -> Vec<Table> {
 }
 
 /// The ratios of what is looked at, at the frequency of the steady state.
-pub(super) fn ratios(sweep: &Sweep, frequency: f64) -> Table {
+fn ratios(sweep: &Sweep, frequency: f64) -> Table {
     let rows = sweep.transmissions.iter().map(|own| {
         let text = |text: &dyn Fn(Swing) -> String| own.at.map_or(NONE.to_owned(), text);
         let phase = if own.has_phase { text(&|swing| angle(swing.phase)) } else { NONE.to_owned() };
@@ -261,11 +336,60 @@ pub(super) fn ratios(sweep: &Sweep, frequency: f64) -> Table {
 }
 
 /// What is to be known beside them.
-pub(super) fn steady_notes(steady: &Steady) -> Vec<String> {
+fn steady_notes(steady: &Steady) -> Vec<String> {
     let power = steady.power.map(|power| {
         // A power that only rounding makes is none.
         format!("the drive puts in {} on average", quantity(power.max(0.0), "W", DIGITS))
     });
     let note = "weights and other constant forces come on top; elements pull as they push";
     power.into_iter().chain([note.to_owned()]).collect()
+}
+
+/// The responses as the plain numbers that figures are drawn from, with their peaks between the frequencies of the list:
+/// quantity by quantity.
+fn series(sweep: &Sweep) -> Vec<VibrationSeries> {
+    let kind = sweep.drive.kind;
+    let series = |own: &Quantity| {
+        of(sweep, title(own, kind), own.unit(kind), |shown| shown.quantity == own.word)
+    };
+    quantities(sweep).into_iter().map(series).collect()
+}
+
+fn of(
+    sweep: &Sweep,
+    quantity: String,
+    unit: &str,
+    is_shown: impl Fn(&Transmission) -> bool,
+) -> VibrationSeries {
+    let shown = sweep.transmissions.iter().filter(|own| is_shown(own));
+    VibrationSeries {
+        title: format!("Response to {}", sweep.drive.name),
+        quantity,
+        unit: Unit::plain(unit).symbol,
+        curves: list(shown.map(|own| curve(sweep, own))),
+    }
+}
+
+fn curve(sweep: &Sweep, transmission: &Transmission) -> VibrationCurve {
+    let swings = sweep.frequencies.iter().copied().zip(transmission.swings.iter().copied());
+    let resonances = transmission.resonances.iter().map(|own| (own.frequency, own.swing));
+    let mut points: Vec<(f64, Option<Swing>)> = swings.chain(resonances).collect();
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let peaks = transmission.resonances.iter().filter_map(|resonance| {
+        let height = resonance.swing?.amplitude;
+        let height_text = quantity(height, transmission.unit, PEAK_DIGITS);
+        let label =
+            format!("{height_text} at {}", quantity(resonance.frequency, "Hz", PEAK_DIGITS));
+        Some((resonance.frequency, height, label))
+    });
+    let value = |of: fn(Swing) -> f64| {
+        points.iter().map(|point| point.1.map_or(f64::NAN, of)).collect::<Vec<f64>>()
+    };
+    VibrationCurve {
+        name: transmission.name.clone(),
+        frequency: points.iter().map(|point| point.0).collect(),
+        ratio: value(|own| own.amplitude),
+        phase: value(|own| degrees(own.phase)),
+        peaks: peaks.collect(),
+    }
 }

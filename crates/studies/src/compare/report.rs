@@ -2,13 +2,32 @@
 
 use std::fmt::Write as _;
 
-use super::found::{About, Comparison, Worst};
-use crate::{
-    non_identifiable::sentence,
+use dashpot_report::{
+    Report, Tone,
     numbers::{apart, bound, quantity, share},
 };
 
-pub(super) fn sentences(found: &Comparison) -> Vec<String> {
+use super::{About, Comparison, Form, Impact, Map, Worst};
+use crate::non_identifiable::sentence;
+
+/// Maps of more parameters than this are in the object only.
+const MOST_SHOWN: usize = 8;
+
+/// Everything that is said of it.
+pub(super) fn report(comparison: &Comparison) -> Report {
+    let [first, second] = &comparison.compared;
+    let (verdict, tone) =
+        if comparison.same { ("The same", Tone::Heading) } else { ("Not the same", Tone::Warning) };
+    let mut report = Report::titled(format!("{verdict}: {first} and {second}"));
+    report.tone = tone;
+    report.notes(sentences(comparison));
+    report.tables(comparison.forms.iter().map(Form::table));
+    report.tables(comparison.map.iter().filter(|map| map.is_at_most(MOST_SHOWN)).map(Map::table));
+    report.tables(comparison.impact.iter().map(Impact::table));
+    report
+}
+
+fn sentences(found: &Comparison) -> Vec<String> {
     let mut all = Vec::new();
     if let Some(largest) = found.largest_difference {
         let limit = bound(found.within);

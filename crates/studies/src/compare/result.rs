@@ -9,51 +9,54 @@ use dashpot_rheology::{
 };
 use serde::Serialize;
 
-use crate::{
-    numbers::{apart, bound, quantity},
-    output::{VERSION, list},
-    verbs::run::measure_text,
-};
+use dashpot_report::numbers::{apart, bound, quantity};
+
+use crate::{VERSION, list, measure_units::measure_text};
 
 const DIGITS: usize = 6;
 
-#[derive(Serialize)]
-pub(super) struct Comparison {
-    pub(super) dashpot: &'static str,
+/// What a comparison of two models has shown; as an object it is in SI units, and what is infinite or missing is null.
+#[derive(Debug, Serialize)]
+pub struct Comparison {
+    /// Version of the program.
+    pub dashpot: &'static str,
     /// The two, as they were named.
-    pub(super) compared: [String; 2],
+    pub compared: [String; 2],
     /// Whether they are the same.
-    pub(super) same: bool,
+    pub same: bool,
     /// The relative difference of a rate or strength up to which they are.
-    pub(super) within: f64,
+    pub within: f64,
     /// The largest relative difference, in the form in which it is smaller.
-    pub(super) largest_difference: Option<f64>,
+    pub largest_difference: Option<f64>,
     /// What a constant is measured in: `N/m`, or `Pa` for materials.
-    pub(super) unit: &'static str,
+    pub unit: &'static str,
     /// Constants of the forms, where both have them.
-    pub(super) forms: Vec<Form>,
+    pub forms: Vec<Form>,
     /// Where the responses differ most.
-    pub(super) worst: Option<Worst>,
+    pub worst: Option<Worst>,
     /// About each of the two.
-    pub(super) models: Vec<About>,
+    pub models: Vec<About>,
     /// How the parameters of the second follow from those of the first.
-    pub(super) map: Option<Map>,
+    pub map: Option<Map>,
     /// The same impact with both.
-    pub(super) impact: Option<Impact>,
+    pub impact: Option<Impact>,
 }
 
 /// A canonical form of both.
-#[derive(Serialize)]
-pub(super) struct Form {
+#[derive(Debug, Serialize)]
+pub struct Form {
+    /// `maxwell` or `kelvin`.
     #[serde(rename = "form")]
-    pub(super) word: &'static str,
-    pub(super) largest_difference: f64,
-    pub(super) constants: Vec<Constant>,
+    pub word: &'static str,
+    /// The largest relative difference of a constant \[1\].
+    pub largest_difference: f64,
+    /// The constants of both.
+    pub constants: Vec<Constant>,
 }
 
 /// A constant of a form: a stiffness or a damping.
-#[derive(Serialize)]
-pub(super) struct Constant {
+#[derive(Debug, Serialize)]
+pub struct Constant {
     part: String,
     time: Option<[f64; 2]>,
     value: [Option<f64>; 2],
@@ -61,67 +64,92 @@ pub(super) struct Constant {
     difference: f64,
 }
 
-#[derive(Serialize)]
-pub(super) struct Worst {
-    pub(super) frequency: Option<f64>,
-    pub(super) response: f64,
+/// Where the responses differ most.
+#[derive(Debug, Serialize)]
+pub struct Worst {
+    /// Frequency \[Hz\]; 0 or infinite for a limit.
+    pub frequency: Option<f64>,
+    /// Relative difference of the response there \[1\].
+    pub response: f64,
     /// Of the creep; null with masses that move.
-    pub(super) time: Option<f64>,
-    pub(super) creep: Option<f64>,
+    pub time: Option<f64>,
+    /// Relative difference of the creep \[1\].
+    pub creep: Option<f64>,
 }
 
 /// What is known of one of the two.
-#[derive(Serialize)]
-pub(super) struct About {
-    pub(super) elements: Option<usize>,
-    pub(super) least_elements: Option<usize>,
+#[derive(Debug, Serialize)]
+pub struct About {
+    /// Springs and dashpots of a model.
+    pub elements: Option<usize>,
+    /// As many as are needed for the same response.
+    pub least_elements: Option<usize>,
     /// Of a network with moving masses.
-    pub(super) poles: Option<usize>,
-    pub(super) maxwell_form: bool,
-    pub(super) kelvin_form: bool,
-    pub(super) cancelled: Vec<Cancelled>,
-    pub(super) entangled: Vec<Together>,
+    pub poles: Option<usize>,
+    /// Whether it has a Maxwell form.
+    pub maxwell_form: bool,
+    /// Whether it has a Kelvin form.
+    pub kelvin_form: bool,
+    /// Poles that zeros cancel.
+    pub cancelled: Vec<Cancelled>,
+    /// Parameters that cannot all be told apart.
+    pub entangled: Vec<Together>,
 }
 
 /// Poles that zeros cancel.
-#[derive(Serialize)]
-pub(super) struct Cancelled {
-    pub(super) pole: [f64; 2],
-    pub(super) count: usize,
+#[derive(Debug, Serialize)]
+pub struct Cancelled {
+    /// Real and imaginary part \[1/s\].
+    pub pole: [f64; 2],
+    /// How many there are.
+    pub count: usize,
 }
 
 /// Parameters that cannot all be told apart.
-#[derive(Serialize)]
-pub(super) struct Together {
-    pub(super) parameters: Vec<String>,
-    pub(super) combinations: Vec<String>,
+#[derive(Debug, Serialize)]
+pub struct Together {
+    /// Their paths.
+    pub parameters: Vec<String>,
+    /// What can be told instead.
+    pub combinations: Vec<String>,
 }
 
-#[derive(Serialize)]
-pub(super) struct Map {
+/// How the parameters of the second follow from those of the first.
+#[derive(Debug, Serialize)]
+pub struct Map {
     from: Vec<String>,
     to: Vec<String>,
     relative: Vec<Vec<f64>>,
-    pub(super) condition: f64,
+    /// Condition number \[1\].
+    pub condition: f64,
 }
 
 /// Measures of the same impact.
-#[derive(Serialize)]
-pub(super) struct Impact {
-    pub(super) scene: String,
-    pub(super) element: String,
-    pub(super) method: [&'static str; 2],
-    pub(super) measures: Vec<Measured>,
+#[derive(Debug, Serialize)]
+pub struct Impact {
+    /// The scene.
+    pub scene: String,
+    /// The element in whose place the models stand.
+    pub element: String,
+    /// The methods.
+    pub method: [&'static str; 2],
+    /// The measures.
+    pub measures: Vec<Measured>,
 }
 
 /// A measure with each of the two.
-#[derive(Serialize)]
-pub(super) struct Measured {
-    pub(super) measure: String,
-    pub(super) unit: &'static str,
-    pub(super) value: [Option<f64>; 2],
-    pub(super) error: [Option<f64>; 2],
-    pub(super) difference: Option<f64>,
+#[derive(Debug, Serialize)]
+pub struct Measured {
+    /// Its key.
+    pub measure: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its values, in its unit.
+    pub value: [Option<f64>; 2],
+    /// Their errors, in its unit.
+    pub error: [Option<f64>; 2],
+    /// Relative difference \[1\].
+    pub difference: Option<f64>,
 }
 
 impl Comparison {

@@ -2,51 +2,50 @@
 
 use std::fmt::Write as _;
 
-use dashpot_scene::Scene;
+use dashpot_scene::{Loader, Scene};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::{
-    input::load,
-    output::{VERSION, list, object},
-};
+use crate::{VERSION, list, object};
 
 /// A text or file with its SHA-256, as `sha256sum` prints it.
 #[derive(Debug, Serialize)]
-pub(crate) struct Source {
-    pub(crate) file: String,
-    pub(crate) sha256: String,
+pub struct Source {
+    /// Its name.
+    pub file: String,
+    /// The hash, in hexadecimal digits.
+    pub sha256: String,
 }
 
 /// What a result is of: its first keys.
-pub(crate) fn head(scene: &Scene) -> impl Serialize {
-    let (title, file, files) = (&scene.title, &scene.file, of_files(scene));
+pub fn head<'s>(scene: &'s Scene, load: Loader<'_>) -> impl Serialize + use<'s> {
+    let (title, file, files) = (&scene.title, &scene.file, of_files(scene, load));
     object! { dashpot: VERSION, title, file, sha256: of_text(scene), files }
 }
 
 /// The SHA-256 of the scene's text, with what the command line sets by its path.
-pub(crate) fn of_text(scene: &Scene) -> String {
+pub fn of_text(scene: &Scene) -> String {
     sha256(scene.text.as_bytes())
 }
 
 /// The other files of which the scene is made; one that is gone meanwhile is left out.
-pub(crate) fn of_files(scene: &Scene) -> Vec<Source> {
-    let source = |file: &String| Some(Source { file: file.clone(), sha256: of_file(file)? });
+pub fn of_files(scene: &Scene, load: Loader<'_>) -> Vec<Source> {
+    let source = |file: &String| Some(Source { file: file.clone(), sha256: of_file(file, load)? });
     list(scene.files.iter().filter_map(source))
 }
 
 /// The SHA-256 of a file, unless it is gone meanwhile.
-pub(crate) fn of_file(name: &str) -> Option<String> {
+pub fn of_file(name: &str, load: Loader<'_>) -> Option<String> {
     Some(sha256(&load(name).ok()?))
 }
 
 /// The version of the program and all hashes, as rows of a table of settings.
-pub(crate) fn rows(scene: &Scene) -> Vec<Vec<String>> {
+pub fn rows(scene: &Scene, load: Loader<'_>) -> Vec<Vec<String>> {
     let own = [
         vec!["dashpot".to_owned(), VERSION.to_owned()],
         vec!["SHA-256 of the scene".to_owned(), of_text(scene)],
     ];
-    let files = of_files(scene).into_iter();
+    let files = of_files(scene, load).into_iter();
     list(
         own.into_iter()
             .chain(files.map(|own| vec![format!("SHA-256 of {}", own.file), own.sha256])),
@@ -54,7 +53,7 @@ pub(crate) fn rows(scene: &Scene) -> Vec<Vec<String>> {
 }
 
 /// The SHA-256 of some bytes, in hexadecimal digits.
-pub(crate) fn sha256(bytes: &[u8]) -> String {
+pub fn sha256(bytes: &[u8]) -> String {
     let mut text = String::new();
     for byte in Sha256::digest(bytes) {
         let _ = write!(text, "{byte:02x}");

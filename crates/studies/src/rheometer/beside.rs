@@ -2,20 +2,20 @@
 
 use dashpot_analysis::measured::Deviation;
 use dashpot_network::parameters::Dimension;
-use dashpot_report::Table;
+use dashpot_report::{
+    Table,
+    numbers::{percent_signed, quantity, share},
+};
 use serde::Serialize;
 
 use super::{Made, Units};
-use crate::{
-    error::CliError,
-    measured::MeasuredFile,
-    numbers::{percent_signed, quantity, share},
-    output::object,
-};
+use crate::{Context, StudyError, measured::MeasuredFile, object};
 
 /// Digits of what was measured.
 const DIGITS: usize = 4;
 
+/// A loop as it was measured.
+#[derive(Debug)]
 pub(super) struct MeasuredLoop {
     pub(super) file: String,
     /// (Deformation \[m\], force \[N\]) or (strain \[1\], stress \[Pa\]), row by row.
@@ -26,8 +26,12 @@ pub(super) struct MeasuredLoop {
 
 impl MeasuredLoop {
     /// Reads the loop in a file: the columns of deformation and force, or of a material those of strain and stress.
-    pub(super) fn read(file: &str, units: Units) -> Result<Self, CliError> {
-        let own = MeasuredFile::read("--measured", file)?;
+    pub(super) fn read(
+        file: &str,
+        units: Units,
+        context: &dyn Context,
+    ) -> Result<Self, StudyError> {
+        let own = MeasuredFile::read("--measured", file, &|name| context.load(name))?;
         let table = own.table()?;
         let ([place, force], words) = if units.is_material {
             let words = "a strain, as in `strain [%]`, and one of a stress";

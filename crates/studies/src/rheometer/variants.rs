@@ -3,18 +3,21 @@
 use dashpot_analysis::rheometer::PROTOCOLS;
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, registered};
 
-use super::{RheometerArguments, Units};
-use crate::{counts::VARIANTS, error::CliError, input::setting};
+use super::{RheometerRequest, Units};
+use crate::{Assignment, StudyError, list};
+
+/// Combinations of values of one test; more are no table.
+pub(super) const MOST_VARIANTS: usize = 24;
 
 /// Points of a loop that is compared with a measured one: straight lines between them are good to some 1e-7.
 const POINTS_BESIDE: f64 = 4000.0;
 
 /// The words of the tests that are asked for, all of them by default.
-pub(super) fn tests(arguments: &RheometerArguments) -> Vec<String> {
-    if arguments.test.is_empty() {
+pub(super) fn tests(request: &RheometerRequest) -> Vec<String> {
+    if request.test.is_empty() {
         PROTOCOLS.iter().map(|own| own.word.to_owned()).collect()
     } else {
-        arguments.test.clone()
+        list(request.test.iter().map(|test| test.0.clone()))
     }
 }
 
@@ -39,35 +42,40 @@ pub(super) fn has_parameter(test: &str, name: &str) -> bool {
 
 /// The parameters of `--with` in SI units; each must belong to one of the tests.
 pub(super) fn given<'a>(
-    arguments: &'a RheometerArguments,
+    request: &'a RheometerRequest,
     units: Units,
-) -> Result<Vec<Given<'a>>, CliError> {
-    let tests = tests(arguments);
+) -> Result<Vec<Given<'a>>, StudyError> {
+    let tests = tests(request);
     let asked: Vec<&Parameter> = PROTOCOLS
         .iter()
         .filter(|own| tests.iter().any(|test| test == own.word))
         .flat_map(|own| own.parameters)
         .collect();
-    let read = |(name, text): &'a (String, String)| {
+    let read = |(at, one): (usize, &'a Assignment)| {
+        let name = &one.name;
+        if request.with[..at].iter().any(|other| other.name == *name) {
+            let twice = format!("it names `{name}` twice: only one of both can hold");
+            return Err(StudyError::setting("--with", twice));
+        }
         let Some(parameter) = asked.iter().find(|own| own.name == name) else {
             let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
             known.sort_unstable();
             known.dedup();
-            return Err(CliError::UnknownSetting { name: name.clone(), known });
+            return Err(StudyError::UnknownSetting { name: name.clone(), known });
         };
         let expected = dimension(parameter);
         let expected = if units.is_material { per_material(expected) } else { expected };
-        let values = text.split(',').map(str::trim);
-        let values = values.map(|text| Ok((text, setting(name, text, expected)?)));
-        Ok(Given { name, values: values.collect::<Result<_, CliError>>()? })
+        let values = one.values.iter();
+        let values = values.map(|value| Ok((value.text(), value.read(name, expected)?)));
+        Ok(Given { name, values: values.collect::<Result<_, StudyError>>()? })
     };
-    arguments.with.iter().map(read).collect()
+    request.with.iter().enumerate().map(read).collect()
 }
 
 /// The values of a parameter, as they are written and in SI units.
 pub(super) struct Given<'a> {
     name: &'a str,
-    values: Vec<(&'a str, f64)>,
+    values: Vec<(String, f64)>,
 }
 
 /// A test with one value for each parameter.
@@ -91,13 +99,18 @@ impl Variant<'_> {
 }
 
 /// A test with every combination of the values of its parameters.
-pub(super) fn variants<'a>(test: &str, given: &[Given<'a>]) -> Result<Vec<Variant<'a>>, CliError> {
+pub(super) fn variants<'a>(
+    test: &str,
+    given: &[Given<'a>],
+) -> Result<Vec<Variant<'a>>, StudyError> {
     let mut all = vec![Variant::default()];
     for own in given.iter().filter(|own| has_parameter(test, own.name)) {
-        VARIANTS.check(all.len().saturating_mul(own.values.len()), "variants of a test")?;
-        let with = |before: &Variant<'a>, &(text, value): &(&'a str, f64)| {
+        if all.len().saturating_mul(own.values.len()) > MOST_VARIANTS {
+            return Err(StudyError::TooMany { of: "variants of a test", most: MOST_VARIANTS });
+        }
+        let with = |before: &Variant<'a>, (text, value): &(String, f64)| {
             let mut next = before.clone();
-            next.given.push((own.name, value));
+            next.given.push((own.name, *value));
             if own.values.len() > 1 {
                 let comma = if next.label.is_empty() { "" } else { ", " };
                 next.label = format!("{}{comma}{} {text}", next.label, own.name);

@@ -9,7 +9,7 @@ use dashpot_rheology::{
 };
 use dashpot_scene::Scene;
 
-use crate::numbers::quantity;
+use dashpot_report::numbers::quantity;
 
 /// Models of more parts than this are not looked at: it would take longer than to solve them.
 const MOST_PARTS: usize = 300;
@@ -19,7 +19,7 @@ const DIGITS: usize = 6;
 
 /// Groups of parameters of a model that cannot all be told apart from outside; none of one with a part that is not linear,
 /// which may show at one force what it hides at another.
-pub(crate) fn groups(model: &Model) -> Vec<Entangled> {
+pub fn groups(model: &Model) -> Vec<Entangled> {
     let is_linear =
         |part: &Arc<dyn Element>| !matches!(part.law(), Law::Nonlinear { .. } | Law::Phased);
     if model.leaves().nth(MOST_PARTS).is_some() || !model.leaves().all(is_linear) {
@@ -29,7 +29,7 @@ pub(crate) fn groups(model: &Model) -> Vec<Entangled> {
 }
 
 /// What can be told of a group instead.
-pub(crate) fn combinations(group: &Entangled) -> Vec<String> {
+pub fn combinations(group: &Entangled) -> Vec<String> {
     let constant = |(path, part): &(String, Primitive)| match part {
         Primitive::Spring(stiffness) => format!("{path} {}", quantity(*stiffness, "N/m", DIGITS)),
         Primitive::Dashpot(damping) => format!("{path} {}", quantity(*damping, "N s/m", DIGITS)),
@@ -39,7 +39,7 @@ pub(crate) fn combinations(group: &Entangled) -> Vec<String> {
 }
 
 /// A group as a sentence.
-pub(crate) fn sentence(parameters: &[String], combinations: &[String]) -> String {
+pub fn sentence(parameters: &[String], combinations: &[String]) -> String {
     let parameters = listed(parameters);
     if combinations.is_empty() {
         format!("{parameters} cannot be seen from outside")
@@ -61,7 +61,7 @@ fn listed(all: &[String]) -> String {
 }
 
 /// All that there is to say about the models of a scene: how they were made, and what cannot be told apart.
-pub(crate) fn notes(scene: &Scene) -> Vec<String> {
+pub fn notes(scene: &Scene) -> Vec<String> {
     let made = scene.notes.iter().map(|note| format!("{}: {}", note.subject, note.what));
     let connections = scene.network.connections().iter();
     let entangled = connections.flat_map(|connection| {

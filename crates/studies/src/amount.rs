@@ -1,0 +1,166 @@
+//! Quantities that are asked for.
+
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::{Fault, units::parse_quantity, with_units};
+
+use crate::{Given, Kind, Single, StudyError};
+
+/// A quantity whose dimension follows from what it is for: a text with its unit, or a number in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Amount {
+    /// As it is written.
+    Text(String),
+    /// In SI units.
+    Number(f64),
+}
+
+impl Amount {
+    /// Its value in SI units, of a quantity of this `name`.
+    ///
+    /// # Errors
+    ///
+    /// That it is no such quantity.
+    pub fn read(&self, name: &str, expected: Dimension) -> Result<f64, StudyError> {
+        match self {
+            Self::Text(text) => setting(name, text, expected),
+            Self::Number(number) => Ok(*number),
+        }
+    }
+
+    /// A positive value in SI units, likewise.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong, and what to write, in one sentence.
+    pub fn positive(&self, name: &str, expected: Dimension) -> Result<f64, String> {
+        let value = match self {
+            Self::Text(text) => argument(name, text, expected)?,
+            Self::Number(number) => *number,
+        };
+        if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
+    }
+
+    /// As it is written.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Text(text) => text.clone(),
+            Self::Number(number) => number.to_string(),
+        }
+    }
+}
+
+impl Single for Amount {
+    const KIND: Kind = Kind::Text;
+    const IS_DIVIDED: bool = false;
+
+    fn of(given: &Given) -> Result<Self, String> {
+        match given {
+            Given::Text(text) => Ok(Self::Text(text.trim().to_owned())),
+            Given::Number(number) => Ok(Self::Number(*number)),
+            _ => Err("a quantity is wanted".to_owned()),
+        }
+    }
+}
+
+/// A value with the name that it is for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assignment {
+    /// The name.
+    pub name: String,
+    /// Its values: several stand side by side.
+    pub values: Vec<Amount>,
+}
+
+impl Single for Assignment {
+    const KIND: Kind = Kind::Assignment;
+    const IS_DIVIDED: bool = false;
+
+    fn of(given: &Given) -> Result<Self, String> {
+        let (name, value) = match given {
+            Given::Named(name, value) => (name.clone(), (**value).clone()),
+            Given::Text(text) => {
+                assignment(text).map(|(name, value)| (name, Given::Text(value)))?
+            }
+            _ => return Err(ASSIGNMENT.to_owned()),
+        };
+        let values = match value {
+            Given::Text(text) => {
+                text.split(',').map(|part| Amount::Text(part.trim().to_owned())).collect()
+            }
+            value => vec![Amount::of(&value)?],
+        };
+        Ok(Self { name, values })
+    }
+}
+
+const ASSIGNMENT: &str = "write a name, `=` and a value, such as \"K=25 MN/m\"";
+
+/// A name and a value with `=` between them.
+///
+/// # Errors
+///
+/// What to write.
+pub fn assignment(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.rsplit_once('=').unwrap_or((text, ""));
+    if name.trim().is_empty() || value.trim().is_empty() {
+        return Err(ASSIGNMENT.to_owned());
+    }
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// A frequency \[Hz\], positive.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct Frequency(pub f64);
+
+impl Single for Frequency {
+    const KIND: Kind = Kind::Quantity("Hz");
+
+    fn of(given: &Given) -> Result<Self, String> {
+        let value = match given {
+            Given::Number(number) => *number,
+            Given::Text(text) => argument("frequency", text, Dimension::FREQUENCY)?,
+            _ => return Err("a frequency is wanted".to_owned()),
+        };
+        if value > 0.0 { Ok(Self(value)) } else { Err("it must be positive".to_owned()) }
+    }
+}
+
+/// The value of a setting of this name, in SI units. A number without a unit may be meant in others, and is refused unless
+/// it is zero.
+///
+/// # Errors
+///
+/// [`StudyError::Quantity`] and [`StudyError::WrongSetting`].
+pub fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64, StudyError> {
+    let wrong = |reason: String| StudyError::setting(name, reason);
+    let unlike = |fault: Fault| StudyError::quantity(name, fault);
+    let parsed = parse_quantity(text);
+    let quantity =
+        parsed.map_err(|error| unlike(Fault::Unreadable { error, expected }))?.meant(expected);
+    match quantity.dimension {
+        Some(found) if found != expected => {
+            Err(unlike(Fault::WrongDimension { text: text.to_owned(), found, expected }))
+        }
+        None if expected != Dimension::NUMBER && quantity.value != 0.0 => {
+            Err(wrong(format!("`{text}` has no unit: write {}", with_units(text, expected))))
+        }
+        _ if quantity.angle == 0 => Ok(quantity.value),
+        Some(Dimension::FREQUENCY) => {
+            let frequency = quantity.value / std::f64::consts::TAU;
+            Err(unlike(Fault::AngularFrequency { text: text.to_owned(), frequency }))
+        }
+        _ => Err(wrong(format!("`{text}` is an angle"))),
+    }
+}
+
+/// The same, with what is wrong and what to write in one sentence.
+///
+/// # Errors
+///
+/// That sentence.
+pub fn argument(name: &str, text: &str, expected: Dimension) -> Result<f64, String> {
+    setting(name, text.trim(), expected).map_err(|error| match error.help() {
+        Some(help) => format!("{error}; {help}"),
+        None => error.to_string(),
+    })
+}
