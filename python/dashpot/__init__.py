@@ -14,22 +14,20 @@ from ._dashpot import Measure
 from ._dashpot import version as _version
 from ._errors import DashpotError, DashpotWarning, RunError, SceneError
 from ._scene import Report, Scene, run
+from ._studies import compare, rheometer, vibrate
 from ._verbs import (
     Result,
     Sweep,
     call,
-    compare,
     convert,
     cost,
     cushion,
     design,
     fit,
     groups,
-    rheometer,
     signal,
     sweep,
     sweep_to_parquet,
-    vibrate,
 )
 from .network import Model, Network, element
 

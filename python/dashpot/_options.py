@@ -35,7 +35,7 @@ class Option(NamedTuple):
 def options_of(verb: str) -> dict[str, Option] | None:
     """The options of a verb by their names in Python; of another verb the command has something to say."""
     found = _dashpot.options(verb)
-    return None if found is None else {_keyword(own[0]): Option(*own) for own in found}
+    return None if found is None else {keyword_of(own[0]): Option(*own) for own in found}
 
 
 def arguments(verb: str, options: Mapping[str, Any], scene: Any) -> list[str]:
@@ -43,7 +43,7 @@ def arguments(verb: str, options: Mapping[str, Any], scene: Any) -> list[str]:
     known = options_of(verb)
     if known is None:
         return []
-    own = {_keyword(name): value for name, value in options.items()}
+    own = {keyword_of(name): value for name, value in options.items()}
     check(verb, own, known)
     return [word for name, value in own.items() for word in _words(known[name], value, scene)]
 
@@ -81,12 +81,12 @@ def in_python(verb: str, text: str | None) -> str | None:
 
     def flag(text: str) -> str | None:
         own = _FLAG.fullmatch(text.strip())
-        if own is None or _keyword(own[1]) not in known:
+        if own is None or keyword_of(own[1]) not in known:
             return None
         name, value = own[1], own[2].strip(" =.")
         if not value or value.startswith("<"):
-            return _keyword(name)
-        return f"{_keyword(name)}={value}" if value[0] == '"' else f'{_keyword(name)}="{value}"'
+            return keyword_of(name)
+        return f"{keyword_of(name)}={value}" if value[0] == '"' else f'{keyword_of(name)}="{value}"'
 
     def written(found: re.Match[str]) -> str:
         flags = [flag(own) for own in re.split(r" (?=--[a-z])", found[2] or found[3])]
@@ -104,7 +104,18 @@ def values(name: str, value: Any, scene: Any) -> str:
     return ",".join(_text(one, "") if plain else scene.written(name, one) for one, plain in zip(own, is_plain))
 
 
-def _keyword(name: str) -> str:
+def annotation(option: Mapping[str, Any]) -> str:
+    """What a study's option takes, as its type."""
+    kinds = {"text": "str", "count": "int", "quantity": "str | float", "amount": "str | float", "assignment": "Mapping[str, str | float]", "switch": "bool"}
+    words = "Literal[" + ", ".join(map(repr, option["words"])) + "]" if option["kind"] == "words" else ""
+    own = words or kinds[option["kind"]]
+    if option["several"] and option["kind"] != "assignment":
+        own = f"{own} | Sequence[{own}]" if words else f"{own} | Sequence[str]"
+    return own if option["default"] else f"{own} | None"
+
+
+def keyword_of(name: str) -> str:
+    """The name of an option in Python."""
     name = name.replace("-", "_")
     return f"{name}_" if keyword.iskeyword(name) else name
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _dashpot
 from ._errors import DashpotWarning, RunError, SceneError, warn
-from ._options import arguments, in_python, options_of
+from ._options import arguments, check, in_python, keyword_of, options_of, values
 from ._scene import Progress, Report, Scene, keys
 
 
@@ -53,6 +53,8 @@ def call(
     """
     if "json" not in (options_of(verb) or {"json"}):
         raise TypeError(f"`dashpot {verb}` has no `--json`, and so no object")
+    if verb in _STUDIES:
+        return asked_of(_STUDIES[verb], operands, options, progress)
     status, output, said = _answer(verb, operands, {**options, "json": True}, progress)
     found = json.loads(output)
     _warn(verb, operands, said, found)
@@ -67,6 +69,37 @@ def _called(
     return status, output, said
 
 
+_STUDIES = {own["word"]: own for own in _dashpot.studies()}
+
+
+def asked_of(
+    study: Mapping[str, Any], operands: tuple[Any, ...], options: Mapping[str, Any], progress: Progress | None = None
+) -> Result:
+    """What a study answers to these options."""
+    texts: dict[str, str] = {}
+    words = [_operand(own, texts) for own in operands]
+    scene = next((own for own in operands if isinstance(own, Scene)), None)
+    verb = study["word"]
+    known = {keyword_of(own["name"]): own["name"] for own in study["options"]}
+    own = {keyword_of(name): value for name, value in options.items()}
+    check(verb, own, [*known, "set"])
+    pairs = [(name, values(name, value, scene)) for name, value in (own.pop("set", None) or {}).items()]
+    request = {known[name]: value for name, value in own.items()}
+    try:
+        status, found, said = _dashpot.ask(verb, words, pairs, request, texts, progress)
+    except (SceneError, RunError) as error:
+        raise type(error)(_in_python(verb, error.faults)) from None
+    _warn(verb, operands, said, found)
+    return Result(found, status, said)
+
+
+def _in_python(verb: str, faults: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Faults with options as they are written in Python."""
+    return [
+        {**own, "message": in_python(verb, own["message"]), "help": in_python(verb, own["help"])} for own in faults
+    ]
+
+
 def _answer(
     verb: str, operands: tuple[Any, ...], options: Mapping[str, Any], progress: Progress | None
 ) -> tuple[int, str, list[dict[str, Any]]]:
@@ -76,11 +109,7 @@ def _answer(
     own = arguments(verb, options, scene)
     status, output, said = _dashpot.call([verb, *words, *own], texts, progress)
     if status in (1, 2):
-        errors = [
-            {**own, "message": in_python(verb, own["message"]), "help": in_python(verb, own["help"])}
-            for own in said
-            if own["tone"] == "error"
-        ]
+        errors = _in_python(verb, [own for own in said if own["tone"] == "error"])
         raise (SceneError if status == 2 else RunError)(errors)
     return status, output, said
 
@@ -143,9 +172,6 @@ def convert(*operands: Any, **options: Any) -> str:
     return _called("convert", operands, options, None)[1]
 
 
-compare = _verb("compare", "Whether two models or networks are the same from outside; `status` 3 where not.")
-rheometer = _verb("rheometer", "Tests a model alone: creep, relaxation, oscillation.")
-vibrate = _verb("vibrate", "Shakes a linear scene with a sine: transmissibility, resonances, peaks.")
 signal = _verb("signal", "Reads measured channels: offset, CFC filter, peak, HIC, clips.")
 fit = _verb("fit", "Fits numbers of a scene, or a material, to measurements, with their intervals.")
 design = _verb("design", "The best numbers of a scene within its limits, and what no pad can beat.")

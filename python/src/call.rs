@@ -57,38 +57,36 @@ pub(crate) fn call(
     let asking = Asking::new(progress);
     let Called { status, output, said } = py.detach(|| {
         let share = Arc::new(Share::default());
-        let work = Work::begun(arguments, texts, Arc::clone(&share))?;
+        let told = Arc::clone(&share);
+        let work = Work::begun(move || {
+            let host = Host { texts, watch: Arc::new(move |own| told.tell(own)) };
+            dashpot_cli::call(arguments.into_iter().map(OsString::from), host)
+        })?;
         work.awaited(&share, &asking)
     })?;
     Ok((status, output, listed(py, &said)?))
 }
 
-/// A verb that is under way.
-struct Work {
+/// Work that is under way.
+pub(crate) struct Work<T> {
     thread: JoinHandle<()>,
-    called: Receiver<Called>,
+    called: Receiver<T>,
 }
 
-impl Work {
-    fn begun(
-        arguments: Vec<String>,
-        texts: HashMap<String, String>,
-        share: Arc<Share>,
-    ) -> io::Result<Self> {
+impl<T: Default + Send + 'static> Work<T> {
+    pub(crate) fn begun(work: impl FnOnce() -> T + Send + 'static) -> io::Result<Self> {
         let (sender, called) = channel();
         let thread = thread::Builder::new().name("dashpot".to_owned()).stack_size(STACK);
         let thread = thread.spawn(move || {
-            let host = Host { texts, watch: Arc::new(move |own| share.tell(own)) };
-            let called = dashpot_cli::call(arguments.into_iter().map(OsString::from), host);
             // Nobody waits for what has been left alone.
-            let _ = sender.send(called);
+            let _ = sender.send(work());
         })?;
         Ok(Self { thread, called })
     }
 
     /// What became of it. After an interrupt it has a while to end; what does not look up in that time is left alone,
     /// and nobody hears of it any more.
-    fn awaited(self, share: &Share, asking: &Asking) -> PyResult<Called> {
+    pub(crate) fn awaited(self, share: &Share, asking: &Asking) -> PyResult<T> {
         loop {
             match self.called.recv_timeout(PERIOD) {
                 Ok(called) => return Ok(called),
@@ -102,7 +100,7 @@ impl Work {
                 // It has panicked, and so does what called it.
                 Err(RecvTimeoutError::Disconnected) => match self.thread.join() {
                     Err(payload) => resume_unwind(payload),
-                    Ok(()) => return Ok(Called::default()),
+                    Ok(()) => return Ok(T::default()),
                 },
             }
         }

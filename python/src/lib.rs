@@ -7,6 +7,7 @@ mod call;
 mod failure;
 mod report;
 mod scene;
+mod study;
 mod watch;
 
 use pyo3::pymodule;
@@ -22,4 +23,6 @@ mod _dashpot {
     use crate::report::{Measure, Report};
     #[pymodule_export]
     use crate::scene::{Scene, opened};
+    #[pymodule_export]
+    use crate::study::{ask, studies};
 }

@@ -27,6 +27,7 @@ duration = "40 ms"
     [
         lambda: dashpot.sweep("reference", {"head.velocity": [1.0]}, metod="bdf"),
         lambda: dashpot.run("reference", metod="bdf"),
+        lambda: dashpot.rheometer("reference:padding", metod="bdf"),
         lambda: dashpot.Scene("reference").run(metod="bdf"),
         lambda: dashpot.call("cost", "reference", metod="bdf"),
     ],
@@ -94,6 +95,26 @@ def test_numbers_are_in_si_units_whatever_they_measure(tmp_path):
     assert plain["steady"] == dashpot.vibrate("reference", amplitude="1 mm", **shaken)["steady"]
     plain = dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": 1e-4})
     assert plain["tests"] == dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": "0.1 ms"})["tests"]
+
+
+def test_faults_of_studies_name_options_as_python_does():
+    with pytest.raises(dashpot.SceneError, match="`points`: a whole number is wanted"):
+        dashpot.vibrate("reference", drive="ground", points=2.5)
+    with pytest.raises(dashpot.SceneError, match="no unit: write"):
+        dashpot.rheometer("reference:padding", with_={"hold": "5"})
+    with pytest.raises(dashpot.SceneError, match="eksact"):
+        dashpot.rheometer("reference:padding", method="eksact")
+    with pytest.raises(TypeError):
+        dashpot.vibrate("reference", drive="ground", of=[object()])
+
+
+def test_a_study_of_a_scene_in_memory_and_of_one_that_is_named_is_the_same():
+    scene = dashpot.Scene("reference")
+    assert dashpot.vibrate(scene, drive="ground")["responses"] == dashpot.vibrate("reference", drive="ground")["responses"]
+    assert dashpot.call("vibrate", "reference", drive="ground") == dashpot.vibrate("reference", drive="ground")
+    heavy = dashpot.vibrate("reference", drive="ground", set={"head.mass": 20.0})
+    assert heavy["modes"] == dashpot.vibrate("reference", drive="ground", set={"head.mass": "20 kg"})["modes"]
+    assert heavy["modes"] != dashpot.vibrate("reference", drive="ground")["modes"]
 
 
 def test_mixed_values_are_swept():

@@ -7,7 +7,7 @@ import pathlib
 import pytest
 
 import dashpot
-from dashpot import _dashpot
+from dashpot import _dashpot, _studies
 
 STUB = pathlib.Path(dashpot.__file__).with_name("_dashpot.pyi")
 
@@ -47,3 +47,14 @@ def test_the_engine_has_no_more_than_the_stub_says():
 @pytest.mark.parametrize("name", dashpot.__all__)
 def test_all_that_is_public_is_described(name):
     assert inspect.getdoc(getattr(dashpot, name))
+
+
+def test_studies_have_their_options_as_arguments():
+    assert pathlib.Path(_studies.__file__).with_suffix(".pyi").read_text() == _studies.stub()
+    parameters = inspect.signature(dashpot.vibrate).parameters
+    assert parameters["points"].default == 200 and parameters["from_"].kind is inspect.Parameter.KEYWORD_ONLY
+    for name in ("compare", "rheometer", "vibrate"):
+        # What the command has for its files and its terminal is no option of a study.
+        named = set(inspect.signature(getattr(dashpot, name)).parameters)
+        flags = {own[0].replace("-", "_") for own in _dashpot.options(name)}
+        assert {one.rstrip("_") for one in named} >= flags - {"out", "json", "plot", "color", "strict"}

@@ -36,7 +36,11 @@ pub(crate) fn of(path: Option<&Path>) -> Result<Input, StudyError> {
 }
 
 /// The built-in scene of this name, a file, or standard input for `-`.
-pub(crate) fn read_input(path: &Path) -> Result<Input, StudyError> {
+///
+/// # Errors
+///
+/// That it cannot be read, and why.
+pub fn read_input(path: &Path) -> Result<Input, StudyError> {
     let name = path.to_string_lossy();
     if let Some(text) = host::text(&name) {
         return Ok(Input::new(name, text.into_bytes()));

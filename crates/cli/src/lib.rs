@@ -31,7 +31,7 @@ use dashpot_studies::{measured, non_identifiable, origin, sketch};
 
 pub use dashpot_studies::sketch::drawing;
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
-pub use input::load;
+pub use input::{load, read_input};
 pub use options::{VerbOption, options};
 pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 

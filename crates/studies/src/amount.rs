@@ -50,7 +50,7 @@ impl Amount {
 }
 
 impl Single for Amount {
-    const KIND: Kind = Kind::Text;
+    const KIND: Kind = Kind::Amount;
     const IS_DIVIDED: bool = false;
 
     fn of(given: &Given) -> Result<Self, String> {

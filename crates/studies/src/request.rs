@@ -24,6 +24,8 @@ pub enum Kind {
     Count,
     /// A quantity; as a number it is in this SI unit.
     Quantity(&'static str),
+    /// A quantity whose dimension follows from what it is for; as a number it is in SI units.
+    Amount,
     /// One of these words, each with what it means.
     Words(fn() -> Vec<(&'static str, &'static str)>),
     /// A name, `=` and a value.

@@ -1,0 +1,44 @@
+"""Written by `_studies.stub`; a test compares."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+from ._scene import Progress, Scene
+from ._verbs import Result
+
+def compare(
+    first: str | Scene,
+    second: str | Scene,
+    /,
+    *,
+    impact: str | None = None,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Result: ...
+
+def rheometer(
+    model: str | Scene,
+    /,
+    *,
+    test: Literal['creep', 'creep-recovery', 'load-hold-unload', 'relaxation', 'constant-rate', 'load-unload', 'sweep'] | Sequence[Literal['creep', 'creep-recovery', 'load-hold-unload', 'relaxation', 'constant-rate', 'load-unload', 'sweep']] | None = None,
+    with_: Mapping[str, str | float] | None = None,
+    method: Literal['auto', 'bdf', 'tr-bdf2', 'esdirk34', 'tsit45', 'dop853', 'exact'] | Sequence[Literal['auto', 'bdf', 'tr-bdf2', 'esdirk34', 'tsit45', 'dop853', 'exact']] | None = None,
+    measured: str | None = None,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Result: ...
+
+def vibrate(
+    scene: str | Scene,
+    /,
+    *,
+    drive: str | None = None,
+    from_: str | float | None = None,
+    to: str | float | None = None,
+    points: int = 200,
+    of: str | Sequence[str] | None = None,
+    at: str | float | None = None,
+    amplitude: str | float | None = None,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Result: ...
