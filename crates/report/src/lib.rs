@@ -15,5 +15,5 @@ mod well_formed;
 
 pub use page::{Page, ReportFigure};
 pub use report::{Block, Drawing, Figure, Line, Place, Report};
-pub use table::Table;
+pub use table::{Columns, Table};
 pub use text::{Text, Tone, Tones};

@@ -1,4 +1,4 @@
-//! Tables of texts.
+//! Tables of texts, and columns that are declared once.
 
 /// A table of texts.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -52,5 +52,48 @@ impl Table {
             digits.starts_with(|first: char| first.is_ascii_digit())
         };
         cells.peek().is_some() && cells.all(is_number)
+    }
+}
+
+/// What tells the cell of a row.
+type Cell<'c, T> = Box<dyn Fn(&T) -> String + 'c>;
+
+/// The columns of a table whose rows are values of one type, each declared once: its heading, and what of a row it shows.
+///
+/// # Examples
+///
+/// ```
+/// use dashpot_report::Columns;
+///
+/// let columns = Columns::new().column("mass", |m: &f64| format!("{m} kg"));
+/// let table = columns.column("weight", |m| format!("{} N", 10.0 * m)).table("Bodies", [1.0, 2.5]);
+/// assert_eq!(table.rows[1], ["2.5 kg", "25 N"]);
+/// ```
+pub struct Columns<'c, T> {
+    columns: Vec<(String, Cell<'c, T>)>,
+}
+
+impl<'c, T> Columns<'c, T> {
+    /// None yet.
+    #[expect(
+        clippy::new_without_default,
+        reason = "columns without a column are no value to start from"
+    )]
+    pub fn new() -> Self {
+        Self { columns: Vec::new() }
+    }
+
+    /// One more column.
+    #[must_use]
+    pub fn column(mut self, heading: impl Into<String>, cell: impl Fn(&T) -> String + 'c) -> Self {
+        self.columns.push((heading.into(), Box::new(cell)));
+        self
+    }
+
+    /// The table of these rows.
+    pub fn table(&self, caption: impl Into<String>, rows: impl IntoIterator<Item = T>) -> Table {
+        let row = |row: T| self.columns.iter().map(|(_, cell)| cell(&row)).collect();
+        let header = self.columns.iter().map(|column| column.0.as_str());
+        Table::new(caption, header, rows.into_iter().map(row))
     }
 }

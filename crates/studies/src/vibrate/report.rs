@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use dashpot_analysis::vibration::{
-    Drive, DriveKind, QUANTITIES, Quantity, Steady, Sweep, Swing, Transmission, VibrationWarning,
+    Drive, DriveKind, Mode, QUANTITIES, Quantity, Resonance, Steady, SteadyElement, SteadyNode,
+    SteadySupport, Sweep, Swing, Transmission, VibrationWarning,
 };
 use dashpot_plot::{VibrationCurve, VibrationSeries};
 use dashpot_report::{
-    Block, Place, Report, Table,
+    Block, Columns, Place, Report, Table,
     layout::{WIDTH, capital, width},
     numbers::{Unit, bound, quantity},
 };
@@ -134,8 +135,12 @@ fn ratio(value: f64) -> String {
     Unit::plain("1").number(value, DIGITS)
 }
 
-fn angle(phase: f64) -> String {
-    Unit::plain("1").decimal(degrees(phase), 1)
+fn amplitude(swing: Option<Swing>, unit: &str) -> String {
+    swing.map_or(NONE.to_owned(), |swing| quantity(swing.amplitude, unit, DIGITS))
+}
+
+fn phase(swing: Option<Swing>) -> String {
+    swing.map_or(NONE.to_owned(), |swing| Unit::plain("1").decimal(degrees(swing.phase), 1))
 }
 
 fn hertz(value: f64) -> String {
@@ -144,23 +149,20 @@ fn hertz(value: f64) -> String {
 
 /// The modes, each with what its masses do.
 fn modes(sweep: &Sweep) -> Table {
-    let names = sweep.modes.iter().find_map(|mode| mode.shape.as_ref());
-    let names: Vec<&str> =
-        names.map(|all| all.iter().map(|own| own.node.as_str()).collect()).unwrap_or_default();
-    let rows = sweep.modes.iter().enumerate().map(|(at, mode)| {
-        let cell = |place: usize| {
-            let own = mode.shape.as_ref().and_then(|all| all.get(place));
-            own.map_or_else(|| NONE.to_owned(), |own| part_of_mode(own.swing))
-        };
-        let own = [
-            (at + 1).to_string(),
-            hertz(mode.frequency),
-            Unit::plain("1").number(mode.damping_ratio, 3),
-        ];
-        own.into_iter().chain((0..names.len()).map(cell)).collect()
+    let shape = sweep.modes.iter().find_map(|mode| mode.shape.as_ref());
+    let columns = Columns::new()
+        .column("mode", |(at, _): &(usize, &Mode)| (at + 1).to_string())
+        .column("frequency", |(_, mode)| hertz(mode.frequency))
+        .column("damping ζ", |(_, mode)| Unit::plain("1").number(mode.damping_ratio, 3));
+    let of_masses = shape.into_iter().flatten().enumerate();
+    let columns = of_masses.fold(columns, |columns, (place, mass)| {
+        columns.column(&mass.node, move |(_, mode)| {
+            let part = mode.shape.as_ref().and_then(|shape| shape.get(place));
+            part.map_or_else(|| NONE.to_owned(), |part| part_of_mode(part.swing))
+        })
     });
-    let header = ["mode", "frequency", "damping ζ"].into_iter().chain(names.iter().copied());
-    Table::new("Modes, with the displacement of each mass", header, rows.take(MOST_ROWS))
+    let rows = sweep.modes.iter().enumerate().take(MOST_ROWS);
+    columns.table("Modes, with the displacement of each mass", rows)
 }
 
 /// A displacement relative to the largest one: with its sign where it is in phase or opposed, else with its phase.
@@ -178,25 +180,19 @@ fn part_of_mode(swing: Swing) -> String {
 
 /// The resonances of every response, up to a number of them.
 fn resonances(sweep: &Sweep) -> Table {
-    let rows = sweep.transmissions.iter().flat_map(|transmission| {
-        transmission.resonances.iter().map(|resonance| {
-            let none = || NONE.to_owned();
-            let swing = resonance.swing;
-            let phase = swing.filter(|_| transmission.has_phase);
-            let band =
-                resonance.band.map(|[low, high]| format!("{} to {}", hertz(low), hertz(high)));
-            vec![
-                transmission.name.clone(),
-                hertz(resonance.frequency),
-                swing.map_or_else(none, |own| quantity(own.amplitude, transmission.unit, DIGITS)),
-                phase.map_or_else(none, |own| angle(own.phase)),
-                resonance.quality().map_or_else(none, ratio),
-                band.unwrap_or_else(none),
-            ]
+    let rows =
+        sweep.transmissions.iter().flat_map(|of| of.resonances.iter().map(move |at| (of, at)));
+    Columns::new()
+        .column("", |(of, _): &(&Transmission, &Resonance)| of.name.clone())
+        .column("frequency", |(_, at)| hertz(at.frequency))
+        .column("ratio", |(of, at)| amplitude(at.swing, of.unit))
+        .column("phase °", |(of, at)| phase(at.swing.filter(|_| of.has_phase)))
+        .column("Q", |(_, at)| at.quality().map_or(NONE.to_owned(), ratio))
+        .column("half power", |(_, at)| {
+            at.band
+                .map_or(NONE.to_owned(), |[low, high]| format!("{} to {}", hertz(low), hertz(high)))
         })
-    });
-    let header = ["", "frequency", "ratio", "phase °", "Q", "half power"];
-    Table::new("Resonances", &header, rows.take(MOST_ROWS))
+        .table("Resonances", rows.take(MOST_ROWS))
 }
 
 /// What is to be known beside the tables, in whole sentences.
@@ -246,27 +242,22 @@ fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
     let count = total.min(MOST_ROWS);
     let places: Vec<usize> =
         (0..count).map(|at| (at * (total - 1) + (count - 1) / 2) / (count - 1).max(1)).collect();
+    let caption = match quantities(sweep)[..] {
+        [only] => capital(&title(only, sweep.drive.kind)),
+        _ => "Responses".to_owned(),
+    };
     let whole = |shown: &[Transmission]| {
-        let mut header = vec!["frequency"];
-        for own in shown {
-            header.push(&own.name);
-            header.extend(own.has_phase.then_some("phase °"));
-        }
-        let row = |&at: &usize| {
-            let mut row = vec![hertz(sweep.frequencies[at])];
-            for own in shown {
-                let text =
-                    |text: &dyn Fn(Swing) -> String| own.swings[at].map_or(NONE.to_owned(), text);
-                row.push(text(&|swing| quantity(swing.amplitude, own.unit, DIGITS)));
-                row.extend(own.has_phase.then(|| text(&|swing| angle(swing.phase))));
+        let columns =
+            Columns::new().column("frequency", |at: &usize| hertz(sweep.frequencies[*at]));
+        let columns = shown.iter().fold(columns, |columns, of| {
+            let columns = columns.column(&of.name, |at| amplitude(of.swings[*at], of.unit));
+            if of.has_phase {
+                columns.column("phase °", |at| phase(of.swings[*at]))
+            } else {
+                columns
             }
-            row
-        };
-        let caption = match quantities(sweep)[..] {
-            [only] => capital(&title(only, sweep.drive.kind)),
-            _ => "Responses".to_owned(),
-        };
-        Table::new(caption, &header, places.iter().map(row))
+        });
+        columns.table(&caption, places.iter().copied())
     };
     let all = &sweep.transmissions;
     let fitting = (1..=all.len()).rev().find(|&own| width(&whole(&all[..own])) <= columns);
@@ -284,55 +275,40 @@ fn response(sweep: &Sweep, columns: usize) -> (Table, Option<String>) {
 
 /// The peaks of the steady state.
 fn steady(steady: &Steady) -> Vec<Table> {
-    let unit = steady.drive.kind.unit();
-    let amplitude = quantity(steady.amplitude, unit, DIGITS);
-    let name = &steady.drive.name;
-    let caption = format!("Peaks at {} with {amplitude} of {name}", hertz(steady.frequency));
-    let nodes = steady.nodes.iter().map(|node| {
-        let acceleration = node.acceleration.amplitude;
-        vec![
-            node.name.clone(),
-            quantity(node.displacement.amplitude, "m", DIGITS),
-            quantity(acceleration, "m/s^2", DIGITS),
-            format!("{} g", ratio(acceleration / GRAVITY)),
-            angle(node.displacement.phase),
-        ]
-    });
-    let elements = steady.elements.iter().map(|element| {
-        let force =
-            |text: &dyn Fn(Swing) -> String| element.force.map_or_else(|| NONE.to_owned(), text);
-        vec![
-            element.name.clone(),
-            force(&|own| quantity(own.amplitude, "N", DIGITS)),
-            force(&|own| angle(own.phase)),
-            quantity(element.deformation.amplitude, "m", DIGITS),
-            angle(element.deformation.phase),
-            quantity(element.power, "W", DIGITS),
-        ]
-    });
-    let supports = steady.supports.iter().map(|support| {
-        vec![
-            support.name.clone(),
-            quantity(support.force.amplitude, "N", DIGITS),
-            angle(support.force.phase),
-        ]
-    });
-    let header = ["node", "displacement", "acceleration", "", "phase °"];
-    let nodes = Table::new(caption, &header, nodes);
-    let header = ["element", "force", "phase °", "deformation", "phase °", "dissipates"];
-    let elements = Table::new("", &header, elements);
-    let supports = Table::new("", &["support", "force", "phase °"], supports);
-    vec![nodes, elements, supports]
+    let drive = &steady.drive;
+    let size = quantity(steady.amplitude, drive.kind.unit(), DIGITS);
+    let caption = format!("Peaks at {} with {size} of {}", hertz(steady.frequency), drive.name);
+    let nodes = Columns::new()
+        .column("node", |node: &&SteadyNode| node.name.clone())
+        .column("displacement", |node| amplitude(Some(node.displacement), "m"))
+        .column("acceleration", |node| amplitude(Some(node.acceleration), "m/s^2"))
+        .column("", |node| format!("{} g", ratio(node.acceleration.amplitude / GRAVITY)))
+        .column("phase °", |node| phase(Some(node.displacement)));
+    let elements = Columns::new()
+        .column("element", |element: &&SteadyElement| element.name.clone())
+        .column("force", |element| amplitude(element.force, "N"))
+        .column("phase °", |element| phase(element.force))
+        .column("deformation", |element| amplitude(Some(element.deformation), "m"))
+        .column("phase °", |element| phase(Some(element.deformation)))
+        .column("dissipates", |element| quantity(element.power, "W", DIGITS));
+    let supports = Columns::new()
+        .column("support", |support: &&SteadySupport| support.name.clone())
+        .column("force", |support| amplitude(Some(support.force), "N"))
+        .column("phase °", |support| phase(Some(support.force)));
+    vec![
+        nodes.table(caption, &steady.nodes),
+        elements.table("", &steady.elements),
+        supports.table("", &steady.supports),
+    ]
 }
 
 /// The ratios of what is looked at, at the frequency of the steady state.
 fn ratios(sweep: &Sweep, frequency: f64) -> Table {
-    let rows = sweep.transmissions.iter().map(|own| {
-        let text = |text: &dyn Fn(Swing) -> String| own.at.map_or(NONE.to_owned(), text);
-        let phase = if own.has_phase { text(&|swing| angle(swing.phase)) } else { NONE.to_owned() };
-        vec![own.name.clone(), text(&|swing| quantity(swing.amplitude, own.unit, DIGITS)), phase]
-    });
-    Table::new(format!("Responses at {}", hertz(frequency)), &["", "ratio", "phase °"], rows)
+    Columns::new()
+        .column("", |of: &&Transmission| of.name.clone())
+        .column("ratio", |of| amplitude(of.at, of.unit))
+        .column("phase °", |of| phase(of.at.filter(|_| of.has_phase)))
+        .table(format!("Responses at {}", hertz(frequency)), &sweep.transmissions)
 }
 
 /// What is to be known beside them.
