@@ -26,8 +26,7 @@ mod verbs;
 
 use std::{io::ErrorKind, process::ExitCode};
 
-use dashpot_report::{layout as text, numbers};
-use dashpot_studies::{measured, non_identifiable, origin, sketch};
+use dashpot_report::layout as text;
 
 pub use dashpot_studies::sketch::drawing;
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};

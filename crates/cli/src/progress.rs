@@ -11,7 +11,8 @@ use dashpot_scene::units::format_quantity;
 use dashpot_units::percent;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
-use crate::{host, numbers::duration, terminal::note};
+use crate::{host, terminal::note};
+use dashpot_report::numbers::duration;
 
 /// Shorter runs have no bar.
 const PATIENCE: Duration = Duration::from_millis(500);

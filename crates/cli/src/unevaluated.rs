@@ -2,7 +2,8 @@
 
 use dashpot_analysis::{CauseKind, Missing, Unevaluated};
 
-use crate::{numbers::counted, output::list};
+use crate::output::list;
+use dashpot_report::numbers::counted;
 
 /// One sentence for each kind of cause: `399 of 401 designs have no valid scene, the first at T = 3 mm: …`. `place` says
 /// where something is, by its numbers in SI units.

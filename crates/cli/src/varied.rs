@@ -8,7 +8,8 @@ use dashpot_scene::{
 };
 
 use crate::input::AsCommanded as _;
-use crate::{input::Input, numbers::significant, output::list};
+use crate::{input::Input, output::list};
+use dashpot_report::numbers::significant;
 
 /// Digits of a number that is written into a scene for people.
 const WRITTEN: usize = 9;

@@ -9,6 +9,7 @@ mod page;
 mod report;
 mod table;
 mod text;
+mod tone;
 #[cfg(test)]
 #[path = "../../plot/src/tests/well_formed.rs"]
 mod well_formed;
@@ -16,4 +17,5 @@ mod well_formed;
 pub use page::{Page, ReportFigure};
 pub use report::{Block, Drawing, Figure, Line, Place, Report};
 pub use table::{Columns, Table};
-pub use text::{Text, Tone, Tones};
+pub use text::Text;
+pub use tone::{Tone, Tones};

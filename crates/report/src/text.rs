@@ -3,40 +3,12 @@
 use dashpot_plot::Chart;
 
 use crate::{
-    Block, Place, Report, Table,
+    Block, Place, Report, Table, Tone, Tones,
     layout::{WIDTH, columns, fitted, labelled, side_by_side, table, wrapped},
 };
 
 /// Lines of a chart.
 const CHART: usize = 16;
-
-/// What a text is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tone {
-    /// A heading.
-    Heading,
-    /// What the reader must know.
-    Warning,
-    /// Less important.
-    Faint,
-    /// The word before an error.
-    Error,
-    /// The word before a proposal.
-    Help,
-}
-
-/// How a terminal shows tones.
-pub trait Tones {
-    /// The text in the style of its tone.
-    fn toned(&self, tone: Tone, text: &str) -> String;
-}
-
-/// Without any style.
-impl Tones for () {
-    fn toned(&self, _tone: Tone, text: &str) -> String {
-        text.to_owned()
-    }
-}
 
 /// A text of 80 columns that is being written.
 pub struct Text {

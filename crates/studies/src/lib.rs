@@ -29,6 +29,7 @@ pub mod non_identifiable;
 mod object;
 pub mod operand;
 pub mod origin;
+mod register;
 mod request;
 pub mod rheometer;
 pub mod sketch;
@@ -40,8 +41,9 @@ pub use answer::{Answer, DataTable, Outcome, csv};
 pub use context::{Context, Input, Remark, title};
 pub use error::{StudyError, is_unit, unquoted_help};
 pub use object::{Pairs, alike, each_once, list};
+pub use register::STUDIES;
 pub use request::{Given, Kind, OptionInfo, OptionValue, Request, Single};
-pub use study::{Operands, STUDIES, Study};
+pub use study::{Operands, Study};
 
 /// Version of the program; also the mark of files that it wrote.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,8 +1,11 @@
-//! The units in which measures are read.
+//! The units in which measures are read, and limits on them.
 
-use dashpot_analysis::measures::{Hic, Hic15, Hic36, PeakStrain, SeverityIndex};
+use dashpot_analysis::{
+    Bound, Limit, MeasureReport,
+    measures::{Hic, Hic15, Hic36, PeakStrain, SeverityIndex},
+};
 use dashpot_network::parameters::Kind as _;
-use dashpot_report::numbers::Unit;
+use dashpot_report::numbers::{self, MOST_DIGITS, Unit};
 use dashpot_units::STANDARD_GRAVITY;
 
 /// The unit in which measures of a kind, in SI units `si`, are read whatever their size.
@@ -33,4 +36,39 @@ pub fn is_index(kind: &str) -> bool {
 /// Whether it is a head injury criterion.
 pub fn is_hic(kind: &str) -> bool {
     [Hic::KIND, Hic15::KIND, Hic36::KIND].contains(&kind)
+}
+
+/// The unit in which a limit on measures of a kind, in SI units `si`, is read: its own, or the usual one.
+pub fn unit_of_limit(kind: &str, si: &str, limit: &Limit) -> Unit {
+    let written = limit.unit.clone().or_else(|| unit_of_kind(kind, si));
+    written.unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
+}
+
+/// `at most 250 g (EN 1078:2012)`.
+pub fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
+    let level = match measure {
+        Some(own) => level(limit, own.kind, own.unit),
+        None => limit.measure().map_or_else(
+            || numbers::significant(limit.bound.level(), MOST_DIGITS),
+            |own| level(limit, own.word, own.about.unit),
+        ),
+    };
+    let word = match limit.bound {
+        Bound::Max(_) => "at most",
+        Bound::Min(_) => "at least",
+    };
+    let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
+    format!("{word} {level}{from}")
+}
+
+/// The bound as people write it.
+pub fn level(limit: &Limit, kind: &str, si: &str) -> String {
+    let unit = unit_of_limit(kind, si, limit);
+    let text = unit.text(limit.bound.level(), MOST_DIGITS);
+    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
+    let short = match number.split_once('.') {
+        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
+        _ => number,
+    };
+    format!("{short} {rest}").trim_end().to_owned()
 }

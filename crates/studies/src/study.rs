@@ -1,17 +1,13 @@
-//! The register of studies.
+//! What a study is, for faces that know it by its word.
+
+use std::collections::HashSet;
 
 use dashpot_scene::Scene;
 
-use crate::{
-    Answer, Context, Given, OptionInfo, Request, StudyError, compare, operand::Operand, rheometer,
-    vibrate,
-};
+use crate::{Answer, Context, Given, OptionInfo, Request, StudyError, operand::Operand};
 
 /// Name of the built-in scene.
 const BUILT_IN: &str = "reference";
-
-/// All studies, in the order in which help texts name them. **A new one is registered here.**
-pub const STUDIES: &[&dyn Study] = &[&compare::Compare, &rheometer::Rheometer, &vibrate::Vibrate];
 
 /// What a study is asked about.
 #[derive(Debug, Clone, Copy)]
@@ -84,9 +80,17 @@ pub(crate) use about_study;
 /// The request that is made of these values.
 pub(crate) fn request<R: Request>(given: &[(String, Given)]) -> Result<R, StudyError> {
     let mut request = R::default();
+    let mut assigned = HashSet::new();
     for (name, value) in given {
         let wrong = |reason| StudyError::setting(&format!("--{}", name.replace('_', "-")), reason);
         request.take(name, value).map_err(wrong)?;
+        let of_assignment = |info: &&OptionInfo| matches!(info.kind, Kind::Assignment);
+        if R::OPTIONS.iter().filter(of_assignment).any(|info| info.name == name) {
+            let Assignment { name: of, .. } = Assignment::of(value).map_err(wrong)?;
+            if !assigned.insert((name, of.clone())) {
+                return Err(wrong(format!("it names `{of}` twice: only one of both can hold")));
+            }
+        }
     }
     Ok(request)
 }

@@ -10,7 +10,7 @@ use dashpot_signal::{CfcFault, ChannelFault, SettingsFault};
 use dashpot_studies::StudyError;
 
 use super::CliError;
-use crate::verbs::sweep::MISSING_HELP;
+use super::shards::MISSING_HELP;
 
 impl CliError {
     /// What to do, where that can be said.

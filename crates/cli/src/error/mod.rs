@@ -1,6 +1,7 @@
 //! What can go wrong in the command, and the exit code of each.
 
 mod help;
+pub(crate) mod shards;
 
 use std::{
     io,
@@ -18,15 +19,11 @@ use dashpot_signal::{ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
-use crate::{
-    numbers::constant,
-    verbs::{
-        run::stated,
-        sweep::{ShardFault, missing},
-    },
-};
-
+use dashpot_report::numbers::constant;
+use dashpot_studies::measure_units::stated;
 pub(crate) use dashpot_studies::{StudyError, is_unit, unquoted_help};
+
+use self::shards::{ShardFault, missing};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -16,14 +16,13 @@ use std::{
 use self::list::List;
 use crate::{
     cancel,
-    error::{CliError, unwritable},
+    error::{CliError, shards, unwritable},
     host,
     out::SceneText,
     part::{Fingerprint, Part, metadata, part_name, token},
     terminal::{WIDTH, message, print},
-    text::wrapped,
-    verbs::sweep::ShardFault,
 };
+use dashpot_report::layout::wrapped;
 
 /// The file whose presence says that results are whole.
 pub(crate) const RESULT: &str = "result.json";
@@ -68,7 +67,7 @@ impl Folder {
         if list.has_points(path) && !names.iter().any(|own| list::is_of_points(own)) {
             return Err(CliError::Shard {
                 path: path.to_owned(),
-                fault: ShardFault::Taken(Vec::new()),
+                fault: shards::ShardFault::Taken(Vec::new()),
             });
         }
         refuse_foreign(path, &list, names.into_iter())?;

@@ -10,12 +10,11 @@ use dashpot_scene::Scene;
 use crate::{
     args::ValueArguments,
     error::{CliError, Status},
-    non_identifiable::notes,
-    numbers::counted,
     operand::{read_models_of, read_scene_of},
     terminal::{Terminal, WIDTH, note, print},
-    text::hanging,
 };
+use dashpot_report::{layout::hanging, numbers::counted};
+use dashpot_studies::non_identifiable::notes;
 
 /// `check`.
 #[derive(Debug, Args)]

@@ -17,11 +17,11 @@ use crate::input::AsCommanded as _;
 use crate::{
     args::{MODEL, ValueArguments},
     error::{CliError, Status, StudyError},
-    numbers::bound,
     operand::Surroundings,
     out::{SceneFile, SceneText},
     terminal::{Terminal, note, print, print_data},
 };
+use dashpot_report::numbers::bound;
 use dashpot_studies::operand::{Operand, Subject};
 
 /// Name of the table for a response, which has none of its own.

@@ -2,7 +2,8 @@
 
 use clap::Command;
 
-use crate::{terminal::WIDTH, text::columns};
+use crate::terminal::WIDTH;
+use dashpot_report::layout::columns;
 
 /// What stands before a command, and before its further lines.
 const INDENT: &str = "  ";

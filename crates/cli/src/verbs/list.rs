@@ -24,10 +24,10 @@ use dashpot_scene::{Shipped, references, templates, write_effect, write_kind};
 use crate::{
     error::{CliError, Status},
     terminal::{Terminal, Tone, WIDTH, print},
-    text::{columns, wrapped},
     verbs::run::level,
 };
 use dashpot_report::Tones as _;
+use dashpot_report::layout::{columns, wrapped};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Family {

@@ -15,9 +15,9 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     output::{PAGE, Study, Text, VERSION, csv, emit, list, object},
-    sketch::sketch,
     terminal::Terminal,
 };
+use dashpot_studies::sketch::sketch;
 
 /// The same in Markdown.
 const MARKDOWN: &str = "report.md";

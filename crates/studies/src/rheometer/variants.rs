@@ -51,12 +51,8 @@ pub(super) fn given<'a>(
         .filter(|own| tests.iter().any(|test| test == own.word))
         .flat_map(|own| own.parameters)
         .collect();
-    let read = |(at, one): (usize, &'a Assignment)| {
+    let read = |one: &'a Assignment| {
         let name = &one.name;
-        if request.with[..at].iter().any(|other| other.name == *name) {
-            let twice = format!("it names `{name}` twice: only one of both can hold");
-            return Err(StudyError::setting("--with", twice));
-        }
         let Some(parameter) = asked.iter().find(|own| own.name == name) else {
             let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
             known.sort_unstable();
@@ -69,7 +65,7 @@ pub(super) fn given<'a>(
         let values = values.map(|value| Ok((value.text(), value.read(name, expected)?)));
         Ok(Given { name, values: values.collect::<Result<_, StudyError>>()? })
     };
-    request.with.iter().enumerate().map(read).collect()
+    request.with.iter().map(read).collect()
 }
 
 /// The values of a parameter, as they are written and in SI units.

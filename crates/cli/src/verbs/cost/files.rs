@@ -13,8 +13,8 @@ use crate::{
     folder::Staged,
     input::title,
     output::{PAGE, csv, list},
-    sketch,
 };
+use dashpot_studies::sketch;
 
 /// One row for each solution.
 const TABLE: &str = "cost.csv";

@@ -19,12 +19,12 @@ use crate::{
     error::{CliError, Status},
     folder::{Folder, Staged},
     input::title,
-    numbers::rounded,
     operand::{note_means, print_notes},
     output::{Study, Text, VERSION, emit, list, object},
     progress::Bar,
     terminal::Terminal,
 };
+use dashpot_report::numbers::rounded;
 
 /// The accuracies that everyone asks for.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-3, 1e-6];

@@ -9,10 +9,8 @@ use dashpot_analysis::work_precision::{
 use dashpot_report::Table;
 
 use super::{subject, tolerance, wish};
-use crate::{
-    numbers::{duration, significant},
-    output::{alike, list},
-};
+use crate::output::{alike, list};
+use dashpot_report::numbers::{duration, significant};
 
 /// What does not exist.
 const NONE: &str = "–";

@@ -8,11 +8,8 @@ use super::{
     Drawn,
     words::{in_g, in_kpa},
 };
-use crate::{
-    numbers::{quantity, rounded},
-    output::list,
-    verbs::run::Line,
-};
+use crate::{output::list, verbs::run::Line};
+use dashpot_report::numbers::{quantity, rounded};
 
 /// Digits of a number that is read in passing, and of a peak.
 const FEW: usize = 3;

@@ -14,10 +14,10 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
-    origin,
     output::{PAGE, csv, list},
-    said, sketch,
+    said,
 };
+use dashpot_studies::{origin, sketch};
 
 /// All points of all curves.
 const TABLE: &str = "cushion.csv";
@@ -137,7 +137,7 @@ fn curve(own: &Curve) -> CushionCurve {
 
 fn page(drawn: &Drawn, figures: Vec<ReportFigure>) -> Page {
     let scene = &drawn.scene;
-    let settings = Table::plain("Settings", origin::rows(scene, &crate::load));
+    let settings = Table::plain("Settings", origin::rows(scene, &crate::input::load));
     let verdict = words::lines(drawn).into_iter();
     let verdict = verdict.map(|own| format!("{}: {}", own.label, own.text));
     let remarks = words::notes(drawn).into_iter().chain(said::notes(scene));

@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use super::{Drawn, batches::Batches};
 use crate::{
-    origin,
     output::{list, object},
     said,
 };
+use dashpot_studies::origin;
 
 pub(super) fn object(drawn: &Drawn) -> impl Serialize {
     let Drawn { scene, wanted, cushion, .. } = drawn;
@@ -25,7 +25,7 @@ pub(super) fn object(drawn: &Drawn) -> impl Serialize {
     };
     object! {
         #[serde(flatten)]
-        head: origin::head(scene, &crate::load),
+        head: origin::head(scene, &crate::input::load),
         unevaluated: &cushion.unevaluated,
         platen,
         limit: wanted.asked.limit,

@@ -18,12 +18,8 @@ use super::{
     batches::{self, Batches},
     beside,
 };
-use crate::{
-    numbers::{Unit, constant, counted, digits, quantity, rounded},
-    output::list,
-    unevaluated,
-    verbs::run::Line,
-};
+use crate::{output::list, unevaluated, verbs::run::Line};
+use dashpot_report::numbers::{Unit, constant, counted, digits, quantity, rounded};
 
 /// Digits of a number that is read in passing, and of one that is an answer.
 const FEW: usize = 3;
@@ -314,7 +310,7 @@ fn of_best(Best { point, place }: &Best) -> [String; 4] {
     };
     let known = Some(error).filter(|own| own.is_finite());
     let peak_text = in_g().number(peak, digits(peak, known, MOST_DIGITS));
-    let error = known.map_or(NONE.to_owned(), |own| crate::numbers::bound(own / peak));
+    let error = known.map_or(NONE.to_owned(), |own| dashpot_report::numbers::bound(own / peak));
     [
         format!("{mark}{}", in_kpa().number(stress, FEW)),
         peak_text,

@@ -15,11 +15,11 @@ use super::{
 };
 use crate::{
     input::title,
-    numbers::Unit,
     output::list,
     varied::Varied,
     verbs::run::{level, unit_of_kind},
 };
+use dashpot_report::numbers::Unit;
 
 /// Designs along a number.
 const ALONG: usize = 81;

@@ -14,12 +14,12 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
-    numbers::share,
-    origin,
     output::{PAGE, Study as _, csv, list},
-    said, sketch,
+    said,
     verbs::run::scatter,
 };
+use dashpot_report::numbers::share;
+use dashpot_studies::{origin, sketch};
 
 /// The scene with what was found, in a folder.
 const SCENE: &str = "best.toml";
@@ -126,7 +126,7 @@ fn page(answer: &Answer, best: &Design, figures: Vec<ReportFigure>) -> Page {
         figures,
         details: vec![Table::plain(
             "Settings",
-            asked.chain(origin::rows(&answer.scene, &crate::load)),
+            asked.chain(origin::rows(&answer.scene, &crate::input::load)),
         )],
         scene_text: answer.text().to_owned(),
     }

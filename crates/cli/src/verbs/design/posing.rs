@@ -22,12 +22,12 @@ use crate::{
     around::{Around, with_scatter},
     error::{CliError, StudyError},
     host::{ENDED, Watch},
-    numbers::counted,
     output::list,
     progress::Bar,
     varied::{messages, point, posed},
     verbs::run::scatter::ScatterArguments,
 };
+use dashpot_report::numbers::counted;
 
 pub(super) struct Posing<'a> {
     /// The scenes of the tests.

@@ -8,10 +8,8 @@ use super::{
     asked::{Asked, Least},
     words::{DIGITS, active, aim_text, of_test},
 };
-use crate::{
-    numbers::{percent_signed, significant},
-    output::list,
-};
+use crate::output::list;
+use dashpot_report::numbers::{percent_signed, significant};
 
 const FEW: usize = 3;
 

@@ -10,11 +10,11 @@ use super::{
     asked::{Asked, Least},
 };
 use crate::{
-    numbers::{counted, percent_signed, quantity, significant},
     output::list,
     unevaluated,
     verbs::run::{Line, limit_lines, measure_text, scatter},
 };
+use dashpot_report::numbers::{counted, percent_signed, quantity, significant};
 
 /// Digits of a number that was found, of its bounds, and of what is read beside it.
 pub(super) const DIGITS: usize = 5;
@@ -342,7 +342,7 @@ fn front(answer: &Answer) -> String {
     let most = errors.filter(|own| own.is_finite()).fold(0.0, f64::max);
     let within = match most {
         0.0 => String::new(),
-        most => format!("; every measure within {}", crate::numbers::bound(most)),
+        most => format!("; every measure within {}", dashpot_report::numbers::bound(most)),
     };
     let how = match answer.front.len() {
         1 => "one design has the least of both".to_owned(),

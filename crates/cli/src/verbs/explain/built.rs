@@ -9,10 +9,8 @@ use dashpot_report::Table;
 use dashpot_scene::{Scene, units::si_unit};
 
 use super::first_rows;
-use crate::{
-    numbers::{constant, estimate, quantity},
-    sketch::{element, waveform},
-};
+use dashpot_report::numbers::{constant, estimate, quantity};
+use dashpot_studies::sketch::{element, waveform};
 
 /// All of it but the unknowns.
 pub(super) fn tables(scene: &Scene) -> [Table; 5] {

@@ -10,10 +10,8 @@ use dashpot_report::Table;
 use dashpot_scene::{Scene, write_effect};
 
 use super::MOST;
-use crate::{
-    numbers::{estimate, estimated},
-    output::Text,
-};
+use crate::output::Text;
+use dashpot_report::numbers::{estimate, estimated};
 
 const MATTERS: &str =
     "The number measures how much it matters, on or off: little where it is far below 1.";

@@ -14,14 +14,18 @@ use crate::{
     args::SceneArguments,
     error::{CliError, Status},
     input::title,
-    non_identifiable::notes,
-    numbers::constant,
     operand::{read_models_of, read_scene_of},
     output::Text,
     part::write_drawing,
-    sketch::{MOST_DRAWN, sketch},
     terminal::{Terminal, WIDTH, print},
-    text::{fitted, indented},
+};
+use dashpot_report::{
+    layout::{fitted, indented},
+    numbers::constant,
+};
+use dashpot_studies::{
+    non_identifiable::notes,
+    sketch::{MOST_DRAWN, sketch},
 };
 
 /// What stands below the unknowns.

@@ -13,11 +13,11 @@ use super::scene::{FittedScene, Plan};
 use crate::input::AsCommanded as _;
 use crate::{
     error::{CliError, StudyError},
-    numbers::{share, significant},
     output::{list, object},
     terminal::note,
     varied::Varied,
 };
+use dashpot_report::numbers::{share, significant};
 
 /// The option, for messages.
 const FLAG: &str = "--among";

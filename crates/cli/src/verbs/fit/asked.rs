@@ -12,11 +12,11 @@ use crate::{
     args::{frequency_class, share},
     error::CliError,
     input::setting,
-    measured::MeasuredFile,
     output::list,
     varied::Varied,
 };
 use dashpot_studies::assignment;
+use dashpot_studies::measured::MeasuredFile;
 
 /// The option, for messages.
 pub(super) const FLAG: &str = "--to";
@@ -159,7 +159,7 @@ impl Asked {
 
     /// What to write in place of an output where the file has a force over a deformation, and no times.
     pub(super) fn of_model(&self) -> Option<String> {
-        let file = MeasuredFile::read(FLAG, &self.file, &crate::load).ok()?;
+        let file = MeasuredFile::read(FLAG, &self.file, &crate::input::load).ok()?;
         let table = file.table().ok()?;
         let has = |dimension| !table.measuring(dimension).is_empty();
         let is_curve = !has(Dimension::TIME) && has(Dimension::LENGTH) && has(Dimension::FORCE);
@@ -170,7 +170,7 @@ impl Asked {
 
     /// The record in the file, without rows behind a time \[s\].
     pub(super) fn measured(&self, until: Option<f64>) -> Result<Measured, CliError> {
-        let file = MeasuredFile::read(FLAG, &self.file, &crate::load)?;
+        let file = MeasuredFile::read(FLAG, &self.file, &crate::input::load)?;
         let table = file.table()?;
         let columns = self.positions(&file, &table)?;
         let found = Columns { file: &file, table: &table, answers: columns, scale: self.scale };

@@ -14,11 +14,11 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
-    numbers::share,
-    origin,
     output::{PAGE, Study as _, VERSION, list},
-    said, sketch,
+    said,
 };
+use dashpot_report::numbers::share;
+use dashpot_studies::{origin, sketch};
 
 /// The scene or model with what was found, in a folder.
 const SCENE: &str = "fitted.toml";
@@ -65,7 +65,7 @@ pub(super) fn write_fitted_scene(
     let known = fitted.warnings();
     let details = [settings(
         &fitted.plan.arguments.in_words(),
-        origin::rows(&fitted.plan.scene, &crate::load),
+        origin::rows(&fitted.plan.scene, &crate::input::load),
     )];
     let drawn = fitted.fitted.as_ref();
     files.add(

@@ -12,12 +12,12 @@ use crate::{
     error::CliError,
     folder::Staged,
     input::title,
-    numbers::{percent_signed, quantity, significant},
     output::{Study, Text, list},
     unevaluated,
     varied::Varied,
     verbs::run::measure_text,
 };
+use dashpot_report::numbers::{percent_signed, quantity, significant};
 
 /// Digits of fitted values.
 const DIGITS: usize = 4;

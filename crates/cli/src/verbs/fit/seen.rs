@@ -6,10 +6,8 @@ use super::{
     asked::Asked,
     target::{Compared, Target},
 };
-use crate::{
-    numbers::{percent_signed, quantity, significant},
-    output::list,
-};
+use crate::output::list;
+use dashpot_report::numbers::{percent_signed, quantity, significant};
 
 /// Digits of times and residuals.
 const FEW: usize = 3;

@@ -10,13 +10,13 @@ use super::{
 };
 use crate::{
     error::CliError,
-    numbers::share,
     output::list,
     verbs::run::{
         beside::{MeasuredCurve, Output},
         measure_text,
     },
 };
+use dashpot_report::numbers::share;
 
 /// What rows are compared with.
 pub(super) enum Compared {

@@ -6,10 +6,10 @@ use dashpot_fit::network::{Phase, Search};
 
 use crate::{
     cancel::{is_interrupted, notice_interrupts},
-    numbers::significant,
     progress::Bar,
     terminal::Terminal,
 };
+use dashpot_report::numbers::significant;
 
 /// Steps after which half of a search is thought to be done.
 const HALF: f64 = 10.0;

@@ -4,7 +4,7 @@ use dashpot_fit::linear::{Against, Contradiction, Form, LinearFit, Range, Record
 use dashpot_report::Table;
 
 use super::{Fitted, asked::Measured};
-use crate::numbers::{quantity, share};
+use dashpot_report::numbers::{quantity, share};
 
 /// Digits of fitted values.
 const DIGITS: usize = 4;

@@ -13,10 +13,10 @@ use super::{
 use crate::{
     error::CliError,
     input::{setting, title},
-    numbers::{constant, significant},
     output::{Text, list, object},
     terminal::Tone,
 };
+use dashpot_report::numbers::{constant, significant};
 
 pub(super) struct Test {
     design: Laboratory,

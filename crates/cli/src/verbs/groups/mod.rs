@@ -22,12 +22,12 @@ use crate::{
     args::{ValueArguments, refuse},
     error::{CliError, Status},
     input::{setting, title},
-    numbers::{constant, significant},
     operand::{note_means, print_notes, read_scene},
     out::{SceneFile, SceneText},
     output::{Study, Text, alike, emit, list, object},
     terminal::{Terminal, note},
 };
+use dashpot_report::numbers::{constant, significant};
 use dashpot_studies::assignment;
 
 const DIGITS: usize = 6;

@@ -10,10 +10,10 @@ use serde::Serialize;
 
 use super::DIGITS;
 use crate::{
-    numbers::{apart, significant},
     output::{Pairs, list, object},
     verbs::run::measure_text,
 };
+use dashpot_report::numbers::{apart, significant};
 
 const MEASURED: usize = 5;
 

@@ -14,10 +14,10 @@ use super::{
 };
 use crate::{
     error::CliError,
-    numbers::{apart, bound, significant},
     output::{Text, list, object},
     terminal::Tone,
 };
+use dashpot_report::numbers::{apart, bound, significant};
 
 /// So many groups are moved one at a time; more would take long and say little.
 const MOST_ALONE: usize = 12;

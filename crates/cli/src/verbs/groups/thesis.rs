@@ -5,10 +5,8 @@ use dashpot_report::Table;
 use serde::Serialize;
 
 use super::DIGITS;
-use crate::{
-    numbers::{constant, quantity, significant},
-    output::{list, object},
-};
+use crate::output::{list, object};
+use dashpot_report::numbers::{constant, quantity, significant};
 
 /// The groups of the thesis.
 pub(super) struct Thesis {

@@ -14,12 +14,11 @@ use super::{columns::Columns, compared::Numbers, recorded::Recorded};
 use crate::{
     args,
     error::{CliError, StudyError},
-    measured::MeasuredFile,
-    numbers::constant,
-    origin,
     output::list,
     verbs::signal::mme,
 };
+use dashpot_report::numbers::constant;
+use dashpot_studies::{measured::MeasuredFile, origin};
 
 /// Which measured curves stand beside the runs.
 #[derive(Debug, Args)]
@@ -201,7 +200,7 @@ impl MeasuredCurve {
             Some(Err(fault)) => Err(fault),
             None => all.only_one(assembly, &known),
         };
-        let sha256 = origin::of_file(name, &crate::load).unwrap_or_default();
+        let sha256 = origin::of_file(name, &crate::input::load).unwrap_or_default();
         let file = name.to_owned();
         if mme::is_one(Path::new(name)) {
             let channels = mme::read(Path::new(name))?;
@@ -214,7 +213,7 @@ impl MeasuredCurve {
             let column = own.channel.name().to_owned();
             return Ok(Self { file, sha256, column, output, rows, shift, cfc, note: None });
         }
-        let read = MeasuredFile::read(flag, name, &crate::load)?;
+        let read = MeasuredFile::read(flag, name, &crate::input::load)?;
         let table = read.table()?;
         let all = Columns::of_table((flag, name), &table);
         let (at, output) = chosen(&all)?;

@@ -16,13 +16,13 @@ use super::{
     deviations::Compared,
 };
 use crate::{
-    numbers::{percent_signed, quantity},
     output::{Pairs, list, object},
     verbs::signal::{
         object::{number, warning},
         words::{shown, unit_of},
     },
 };
+use dashpot_report::numbers::{percent_signed, quantity};
 
 const DIGITS: usize = 3;
 

@@ -6,12 +6,8 @@ use dashpot_scene::Scene;
 use serde::Serialize;
 
 use super::{Answer, deviations, files::sample_times, floor};
-use crate::{
-    counts::check_memory,
-    error::CliError,
-    numbers::{Unit, constant},
-    output::list,
-};
+use crate::{counts::check_memory, error::CliError, output::list};
+use dashpot_report::numbers::{Unit, constant};
 
 /// Digits of a value at a time.
 const DIGITS: usize = 5;

@@ -26,14 +26,16 @@ use crate::{
     error::{CliError, is_unit},
     folder::Staged,
     input::title,
-    numbers::{bound, duration},
     operand::read_scene,
-    origin,
     output::{Study, Text, VERSION, alike, each_once, list, object},
     said,
     terminal::{Terminal, WIDTH, note},
-    text::indented,
 };
+use dashpot_report::{
+    layout::indented,
+    numbers::{bound, duration},
+};
+use dashpot_studies::origin;
 
 /// What stands where nothing is judged.
 const NO_VERDICT: &str = "–";
@@ -377,7 +379,7 @@ impl Study for Designs {
                     let scene = &own.answer.scene;
                     let named = serde_json::json!({
                         "name": own.name, "title": scene.title, "file": scene.file,
-                        "sha256": origin::of_text(scene), "files": origin::of_files(scene, &crate::load),
+                        "sha256": origin::of_text(scene), "files": origin::of_files(scene, &crate::input::load),
                         "values": own.answer.changes.set,
                         "warnings": said::warning_objects(scene), "notes": said::note_objects(scene),
                     });

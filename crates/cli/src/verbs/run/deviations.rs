@@ -12,9 +12,9 @@ use super::{
     compared,
     measures::unit_of_kind,
 };
-use crate::{
-    numbers::{MOST_DIGITS, Unit, constant, percent_signed, quantity, rounded, share},
-    output::{Text, list, object},
+use crate::output::{Text, list, object};
+use dashpot_report::numbers::{
+    MOST_DIGITS, Unit, constant, percent_signed, quantity, rounded, share,
 };
 
 /// Digits of what was measured.

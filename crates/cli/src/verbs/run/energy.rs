@@ -4,7 +4,7 @@ use dashpot_analysis::{Ledger, RunReport};
 use dashpot_network::{DriveOutputs, Source};
 use dashpot_report::Table;
 
-use crate::numbers::{Unit, quantity, share};
+use dashpot_report::numbers::{Unit, quantity, share};
 
 /// Elements that take up less than this part of the energy share one line.
 const SMALL: f64 = 1e-4;

@@ -26,8 +26,8 @@ use crate::{
     out::SceneText,
     output::{csv, list},
     said,
-    sketch::{MOST_DRAWN, sketch},
 };
+use dashpot_studies::sketch::{MOST_DRAWN, sketch};
 
 /// What happened, in order of time.
 pub(super) const EVENTS: &str = "events.csv";

@@ -6,10 +6,8 @@ use dashpot_network::{Network, parameters::WindowWish};
 use serde::Serialize;
 
 use super::{limits::stated, measures::measure_text, verdict::Line};
-use crate::{
-    numbers::{quantity, significant},
-    output::{Pairs, list},
-};
+use crate::output::{Pairs, list};
+use dashpot_report::numbers::{quantity, significant};
 
 const LABEL: &str = "floor";
 const DIGITS: usize = 4;

@@ -1,16 +1,14 @@
 //! What a run says about its limits, in words, and whether they are kept.
 
-use dashpot_analysis::{
-    Bound, Judged, Judgement, Limit, MeasureReport, Reason, RunReport, Warning,
-};
+use dashpot_analysis::{Judged, Judgement, MeasureReport, Reason, RunReport, Warning};
+pub(crate) use dashpot_studies::measure_units::{level, stated, unit_of_limit};
 use dashpot_units::percent;
 
 use super::{
-    measures::unit_of_kind,
     scatter,
     verdict::{Line, TIME_DIGITS},
 };
-use crate::numbers::{self, MOST_DIGITS, Unit, bound, counted, percent_signed};
+use dashpot_report::numbers::{self, MOST_DIGITS, bound, counted, percent_signed};
 
 /// Digits of a value beside its limit.
 const DIGITS: usize = 4;
@@ -150,7 +148,8 @@ fn outside(run: &RunReport, judged: &Judged<'_>) -> Option<String> {
         _ => None,
     })?;
     let measure = judged.measure?;
-    let level = unit(measure.kind, measure.unit, judged.limit).text(harder.outside, DIGITS);
+    let level =
+        unit_of_limit(measure.kind, measure.unit, judged.limit).text(harder.outside, DIGITS);
     let time = numbers::quantity(harder.time, "s", TIME_DIGITS);
     let pulls = run.warnings.iter().find_map(|own| match own {
         Warning::Pulls { element, since } if since.is_none_or(|since| since <= harder.time) => {
@@ -174,7 +173,7 @@ fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
         let is_infinite = measure.is_infinite() && judged.sampled.is_none();
         return if is_infinite { "is infinite" } else { "is not determined" }.to_owned();
     };
-    let unit = unit(measure.kind, measure.unit, limit);
+    let unit = unit_of_limit(measure.kind, measure.unit, limit);
     let apart = (value - limit.bound.level()).abs();
     let wanted = numbers::digits(value, Some(0.1 * apart), MOST_DIGITS).max(DIGITS);
     let digits = numbers::digits(value, error, wanted);
@@ -182,40 +181,6 @@ fn value(measure: &MeasureReport, judged: &Judged<'_>) -> String {
         Some(error) => format!("{} ± {}", unit.text(value, digits), unit.text(error, 2)),
         None => unit.text(value, digits),
     }
-}
-
-fn unit(kind: &str, si: &str, limit: &Limit) -> Unit {
-    let written = limit.unit.clone().or_else(|| unit_of_kind(kind, si));
-    written.unwrap_or_else(|| Unit::suiting(limit.bound.level(), si))
-}
-
-/// `at most 250 g (EN 1078:2012)`.
-pub(crate) fn stated(limit: &Limit, measure: Option<&MeasureReport>) -> String {
-    let level = match measure {
-        Some(own) => level(limit, own.kind, own.unit),
-        None => limit.measure().map_or_else(
-            || numbers::significant(limit.bound.level(), MOST_DIGITS),
-            |own| level(limit, own.word, own.about.unit),
-        ),
-    };
-    let word = match limit.bound {
-        Bound::Max(_) => "at most",
-        Bound::Min(_) => "at least",
-    };
-    let from = limit.from.as_ref().map_or(String::new(), |from| format!(" ({from})"));
-    format!("{word} {level}{from}")
-}
-
-/// The bound as people write it.
-pub(crate) fn level(limit: &Limit, kind: &str, si: &str) -> String {
-    let unit = unit(kind, si, limit);
-    let text = unit.text(limit.bound.level(), MOST_DIGITS);
-    let (number, rest) = text.split_once(' ').unwrap_or((&text, ""));
-    let short = match number.split_once('.') {
-        Some(_) if !number.contains('e') => number.trim_end_matches('0').trim_end_matches('.'),
-        _ => number,
-    };
-    format!("{short} {rest}").trim_end().to_owned()
 }
 
 /// What may decide what is open.

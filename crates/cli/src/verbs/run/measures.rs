@@ -8,10 +8,10 @@ use dashpot_report::Table;
 pub(crate) use dashpot_studies::measure_units::{is_hic, is_index, measure_text, unit_of_kind};
 
 use super::Answer;
-use crate::{
+use crate::output::{alike, each_once, list};
+use dashpot_report::{
+    layout as text,
     numbers::{self, MOST_DIGITS, Unit, bound, constant, quantity, share},
-    output::{alike, each_once, list},
-    text,
 };
 
 /// A run and what tells it from others: its method, or its design.

@@ -51,7 +51,7 @@ use self::{
 };
 pub(crate) use self::{
     floor::Told as FloorTold,
-    limits::{level, lines as limit_lines, stated},
+    limits::{level, lines as limit_lines},
     measures::{measure_text, unit_of_kind},
     verdict::Line,
 };
@@ -67,9 +67,9 @@ use crate::{
     output::{Study, Text, emit, list},
     progress::Bar,
     terminal::{Terminal, WIDTH},
-    text::indented,
     verbs::check::undefined,
 };
+use dashpot_report::layout::indented;
 
 const PLOT_HEIGHT: usize = 14;
 /// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.

@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::{Answer, solving::direction};
 use crate::{
-    origin,
     output::{Pairs, VERSION, list, object},
     said,
 };
+use dashpot_studies::origin;
 
 /// The whole answer, with the largest difference between the first run and any other, relative.
 pub(super) fn object(answer: &Answer) -> impl Serialize {
@@ -19,7 +19,7 @@ pub(super) fn object(answer: &Answer) -> impl Serialize {
         dashpot: VERSION,
         scene: object! {
             title: &scene.title, file: &scene.file,
-            sha256: origin::of_text(scene), files: origin::of_files(scene, &crate::load),
+            sha256: origin::of_text(scene), files: origin::of_files(scene, &crate::input::load),
             warnings: said::warning_objects(scene), notes: said::note_objects(scene),
         },
         settings: answer.asked.first().map(|asked| settings(answer, asked)),

@@ -20,11 +20,11 @@ use crate::{
     counts::SCATTERED,
     error::{CliError, StudyError},
     input,
-    numbers::{self, MOST_DIGITS, Unit, rounded},
     output::each_once,
     unevaluated,
     varied::messages,
 };
+use dashpot_report::numbers::{self, MOST_DIGITS, Unit, rounded};
 
 /// What is smaller than this part of the largest value of its unit is what rounding leaves of zero.
 const ROUNDING: f64 = 1e-12;

@@ -13,7 +13,7 @@ use dashpot_plot::{
 };
 
 use super::limits::level;
-use crate::numbers::{digits, quantity};
+use dashpot_report::numbers::{digits, quantity};
 
 /// Points that are closer than this part of the run are one, and forces than this of the largest.
 const SAME: f64 = 1e-4;

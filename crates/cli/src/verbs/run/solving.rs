@@ -9,10 +9,8 @@ use dashpot_scene::{
 };
 
 use super::Answer;
-use crate::{
-    numbers::{constant, counted, duration, share, tolerance},
-    origin,
-};
+use dashpot_report::numbers::{constant, counted, duration, share, tolerance};
+use dashpot_studies::origin;
 
 /// What the columns of times mean.
 const TIMES: &str = "`time`: integration alone (of `exact`: its set-up); `in all`: everything";
@@ -91,7 +89,7 @@ pub(super) fn settings_table(answer: &Answer) -> Table {
     let values = answer.scene.values.iter();
     rows.extend(values.map(|own| (format!("value {}", own.name), value_text(own))));
     let rows = rows.into_iter().map(|(name, value)| vec![name, value]);
-    Table::plain("Settings", rows.chain(origin::rows(&answer.scene, &crate::load)))
+    Table::plain("Settings", rows.chain(origin::rows(&answer.scene, &crate::input::load)))
 }
 
 /// A named value as it is written; of what is computed its value besides.

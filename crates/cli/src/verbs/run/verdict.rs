@@ -14,7 +14,7 @@ use super::{
     measures::{is_hic, is_index, is_zero, largest, unit_of_zero},
     scatter,
 };
-use crate::numbers::{
+use dashpot_report::numbers::{
     self, Unit, apart, bound, constant, duration, estimate, quantity, rounded, share, significant,
 };
 

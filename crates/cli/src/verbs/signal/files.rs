@@ -15,9 +15,9 @@ use super::{
 use crate::{
     error::CliError,
     folder::Staged,
-    numbers::{Unit, quantity},
     output::{PAGE, VERSION, csv, list},
 };
+use dashpot_report::numbers::{Unit, quantity};
 
 /// All measures of all channels.
 const MEASURES: &str = "measures.csv";

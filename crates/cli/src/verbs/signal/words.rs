@@ -9,9 +9,9 @@ use dashpot_signal::{
 use dashpot_units::si_unit;
 
 use super::{Group, Signal, Signals, limits::Verdict};
-use crate::{
-    numbers::{MOST_DIGITS, Unit, bound, digits, percent_signed, quantity, share, significant},
-    output::{Text, list},
+use crate::output::{Text, list};
+use dashpot_report::numbers::{
+    MOST_DIGITS, Unit, bound, digits, percent_signed, quantity, share, significant,
 };
 
 /// Digits of times and rates.

@@ -9,7 +9,8 @@ use super::{
     titles::{capital, quantity},
     words,
 };
-use crate::{numbers::percent_signed, output::list};
+use crate::output::list;
+use dashpot_report::numbers::percent_signed;
 
 /// So many are shown.
 const MOST: usize = 10;

@@ -9,7 +9,8 @@ use super::{
     titles::{capital, parameter, parameters, quantity},
     words::{self, shown},
 };
-use crate::{input::title, numbers::Unit};
+use crate::input::title;
+use dashpot_report::numbers::Unit;
 
 /// A family of at most so many lines is drawn besides its map, and wholly …
 const MOST_FAMILY: usize = 12;

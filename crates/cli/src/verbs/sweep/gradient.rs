@@ -19,13 +19,13 @@ use crate::{
     error::{CliError, Status, StudyError},
     folder::{Folder, Staged},
     input::title,
-    numbers::{Unit, digits, percent_signed, quantity},
     operand::print_notes,
-    origin,
     output::{Study, Text, alike, csv, emit, list, object},
     progress::Bar,
     terminal::Terminal,
 };
+use dashpot_report::numbers::{Unit, digits, percent_signed, quantity};
+use dashpot_studies::origin;
 
 pub(super) const TABLE: &str = "gradients.csv";
 /// The unit of a number that is written without one.
@@ -158,7 +158,7 @@ impl Study for Gradients {
         let points = self.reports.iter().enumerate();
         object! {
             #[serde(flatten)]
-            head: origin::head(&self.scene, &crate::load),
+            head: origin::head(&self.scene, &crate::input::load),
             varied: list(self.varied.variations.iter().map(|own| &own.name)),
             points: list(points.map(|(at, report)| object! {
                 at: self.values(at), #[serde(flatten)] report,

@@ -1,16 +1,14 @@
 //! What tells a sweep from others: where a folder has points of another one, it is said in what they differ.
 
-use std::fmt;
+use crate::error::shards::Difference;
 
 use dashpot_analysis::sweep::{Column, Estimates};
 use dashpot_scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use super::{arguments::SweepArguments, words::name};
-use crate::{
-    origin,
-    output::{VERSION, list},
-};
+use crate::output::{VERSION, list};
+use dashpot_studies::origin;
 
 /// What a sweep was asked for, and of what.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,9 +38,9 @@ impl Identity {
         ];
         let asked = own.chain(more).map(|(name, own)| (name.to_owned(), own));
         let table = arguments.points.as_ref().map(|own| own.to_string_lossy());
-        let table = table.and_then(|own| origin::of_file(&own, &crate::load));
+        let table = table.and_then(|own| origin::of_file(&own, &crate::input::load));
         let table = table.map(|own| ("the table of designs".to_owned(), own));
-        let files = origin::of_files(scene, &crate::load).into_iter();
+        let files = origin::of_files(scene, &crate::input::load).into_iter();
         let files = files.map(|own| (format!("`{}`", own.file), own.sha256));
         let text = ("the scene".to_owned(), origin::of_text(scene));
         Self {
@@ -78,32 +76,5 @@ impl Identity {
             }
         }
         all
-    }
-}
-
-/// In what two sweeps differ.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Difference {
-    what: String,
-    /// What it is there, and what it is here; of a text that is not told.
-    values: Option<[String; 2]>,
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.values {
-            Some([there, here]) => write!(out, "{} (there {there}, here {here})", self.what),
-            None => out.write_str(&self.what),
-        }
-    }
-}
-
-/// The end of a sentence on points of another sweep: in what they differ, where that is known.
-pub(super) fn differing(all: &[Difference]) -> String {
-    let words = list(all.iter().map(Difference::to_string));
-    if words.is_empty() {
-        String::new()
-    } else {
-        format!(", which differs in {}", words.join(", "))
     }
 }

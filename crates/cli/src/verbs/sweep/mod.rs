@@ -34,7 +34,7 @@ use serde::Serialize;
 
 pub(crate) use self::{
     arguments::SweepArguments,
-    shards::{MISSING_HELP, MergeArguments, ShardFault, merged, missing},
+    shards::{MergeArguments, merged},
 };
 use self::{
     arguments::{EstimatedPoints, OutputArguments},
@@ -50,15 +50,15 @@ use crate::{
     error::{CliError, Status, StudyError},
     folder::Staged,
     input::{Input, title},
-    numbers::counted,
     operand::print_notes,
-    origin,
     output::{Pairs, Study, Text, emit, list, object},
     progress::Bar,
     said,
     terminal::{Terminal, note},
     varied::posed,
 };
+use dashpot_report::numbers::counted;
+use dashpot_studies::origin;
 
 /// What was varied, in what, and what was found.
 struct Swept {
@@ -98,7 +98,7 @@ fn solved_or_merged(
     let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
     let hash = shards::fingerprint(arguments, &scene, &columns);
     if let Some(own) = stored.iter().flatten().find(|own| own.sweep != hash) {
-        return Err(own.fault(ShardFault::Changed));
+        return Err(own.fault(crate::error::shards::ShardFault::Changed));
     }
     let of_values = |tunables: &Tunables, values: &[(usize, String)]| {
         scene_point(posed((tunables, values), &input, &set)?).map_err(|error| error.to_string())
@@ -353,7 +353,7 @@ impl Study for Swept {
         }));
         object! {
             #[serde(flatten)]
-            head: origin::head(scene, &crate::load),
+            head: origin::head(scene, &crate::input::load),
             listed: self.varied.is_of_rows(),
             parameters,
             asked: self.asked.iter().map(|(name, value)| (*name, value.as_str())).collect::<Pairs<_, _>>(),

@@ -11,7 +11,9 @@ use super::{
     titles::{capital, quantity},
     words,
 };
-use crate::{input::title, numbers::counted, origin, output::list, said, sketch};
+use crate::{input::title, output::list, said};
+use dashpot_report::numbers::counted;
+use dashpot_studies::{origin, sketch};
 
 /// Digits of what is computed.
 const DIGITS: usize = 4;
@@ -113,5 +115,5 @@ fn settings(swept: &Swept) -> Table {
     let asked = swept.asked.iter().map(|(name, value)| (*name, value.clone()));
     let rows = own.into_iter().chain(asked).filter(|own| !own.1.is_empty());
     let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
-    Table::plain("Settings", rows.chain(origin::rows(&swept.scene, &crate::load)))
+    Table::plain("Settings", rows.chain(origin::rows(&swept.scene, &crate::input::load)))
 }

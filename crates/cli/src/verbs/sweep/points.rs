@@ -5,10 +5,8 @@ use dashpot_analysis::{Judgement, sweep::SweepReport};
 use dashpot_report::Table;
 
 use super::{Swept, figures, words};
-use crate::{
-    numbers::{Unit, digits},
-    output::list,
-};
+use crate::output::list;
+use dashpot_report::numbers::{Unit, digits};
 
 /// So many points are shown; of more the first designs of a list, and none of a grid, which figures show.
 const MOST_SHOWN: usize = 50;

@@ -9,23 +9,19 @@ use clap::Args;
 use dashpot_analysis::sweep::{Column, Shard};
 use dashpot_scene::Scene;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::{
-    OutputArguments, SweepArguments,
-    identity::{Difference, Identity, differing},
-    solved_or_merged,
-};
+use super::{OutputArguments, SweepArguments, identity::Identity, solved_or_merged};
+use crate::error::shards::ShardFault;
 use crate::{
     counts::SHARDS,
     error::{CliError, Status},
     folder::{RESULT, Staged},
     input::title,
-    numbers::counted,
-    origin,
     output::{Study, Text, VERSION, list, object},
     terminal::{Terminal, note},
 };
+use dashpot_report::numbers::counted;
+use dashpot_studies::origin;
 
 /// File of a shard with its values and then their errors, of each point one for each measure: in SI units, as
 /// doubles of 8 bytes, the lowest first.
@@ -53,59 +49,6 @@ pub(crate) struct MergeArguments {
 
 /// Before the hash of all that stands before it, the last key of a shard's result: nothing of it is believed before.
 const DIGEST: &str = ",\n  \"digest\": \"";
-
-/// What is wrong with a folder of a shard.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(crate) enum ShardFault {
-    /// There is no result of a shard.
-    #[error("there is no shard of a sweep in it, or not yet")]
-    None,
-    /// A file of it is gone, or not as it was written.
-    #[error("`{0}` of its shard is not as it was written")]
-    Broken(&'static str),
-    /// It is of another sweep than the others.
-    #[error("its shard is of another sweep than the first one")]
-    OfAnother,
-    /// The scene, a file of it, or the program is another one by now.
-    #[error(
-        "the scene, a file of it or the version of the program has changed since its shard was solved"
-    )]
-    Changed,
-    /// There is a shard of another sweep where this one is to be written.
-    #[error("there are points of another sweep or shard in it{}", differing(.0))]
-    Taken(Vec<Difference>),
-    /// It is there twice.
-    #[error("its shard is there twice")]
-    Twice,
-}
-
-impl ShardFault {
-    pub(crate) fn help(&self) -> &'static str {
-        match self {
-            Self::None => "a shard is written by `dashpot sweep … --shard 3/10 --out DIR`",
-            Self::Broken(_) => "remove the folder, and solve the shard again",
-            Self::OfAnother | Self::Twice => "leave the folder out",
-            Self::Changed => "solve all shards again, or bring back what was changed",
-            Self::Taken(_) => "choose another folder for `--out`, or remove this one",
-        }
-    }
-}
-
-/// What to do about shards that are missing.
-pub(crate) const MISSING_HELP: &str =
-    "solve them with the same command; shards that are there already are left as they are";
-
-/// `2 shards of 10 are missing: 3, 7`; of many the first.
-pub(crate) fn missing(numbers: &[usize], of: usize) -> String {
-    const MOST: usize = 12;
-    let mut words: Vec<String> = numbers.iter().take(MOST).map(usize::to_string).collect();
-    if numbers.len() > MOST {
-        words.push("…".to_owned());
-    }
-    let (count, verb) =
-        (counted(numbers.len(), "shard"), if numbers.len() == 1 { "is" } else { "are" });
-    format!("{count} of {of} {verb} missing: {}", words.join(", "))
-}
 
 /// Which shard of how many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -138,9 +81,10 @@ pub(super) fn fingerprint(arguments: &SweepArguments, scene: &Scene, columns: &[
     // Another name of the same file makes no difference.
     let mut asked = arguments.clone();
     let points =
-        asked.points.take().map(|own| origin::of_file(&own.to_string_lossy(), &crate::load));
+        asked.points.take().map(|own| origin::of_file(&own.to_string_lossy(), &crate::input::load));
     asked.scene.scene = None;
-    let files = list(origin::of_files(scene, &crate::load).into_iter().map(|own| own.sha256));
+    let files =
+        list(origin::of_files(scene, &crate::input::load).into_iter().map(|own| own.sha256));
     let columns = list(columns.iter().map(|own| (&own.key, own.is_share)));
     let all = (VERSION, origin::of_text(scene), files, asked, points, columns);
     origin::sha256(serde_json::to_string(&all).unwrap_or_default().as_bytes())

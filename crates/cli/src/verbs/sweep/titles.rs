@@ -2,7 +2,7 @@
 
 use dashpot_analysis::sweep::Column;
 
-pub(super) use crate::text::capital;
+pub(super) use dashpot_report::layout::capital;
 
 /// Tables of a scene, whose names lead to what stands in them and say nothing of it.
 const TABLES: [&str; 10] = [

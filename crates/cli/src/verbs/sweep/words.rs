@@ -10,11 +10,11 @@ use dashpot_scene::{Remark, Variation, units::si_unit};
 
 use super::{Form, SweepArguments, Swept, Varied, kept, unmoved::unmoved};
 use crate::{
-    numbers::{self, Unit, apart, bound, counted, estimate, significant},
     output::list,
     unevaluated,
     verbs::run::{level, unit_of_kind},
 };
+use dashpot_report::numbers::{self, Unit, apart, bound, counted, estimate, significant};
 
 /// Digits of what is computed.
 const DIGITS: usize = 5;

@@ -23,7 +23,7 @@ use self::{
 use super::{
     arguments::SweepArguments,
     identity::Identity,
-    shards::{Place, ShardFault},
+    shards::Place,
     varied::Varied,
     words::{limit, name, solved, unit},
 };
@@ -32,14 +32,14 @@ use crate::{
     error::{CliError, Status, unwritable},
     folder::{Folder, RESULT},
     input::title,
-    numbers::{bound, counted},
     operand::print_notes,
-    origin,
     output::{Pairs, Study, Text, emit, list, object},
     progress::Bar,
     said,
     terminal::{Terminal, note},
 };
+use dashpot_report::numbers::{bound, counted};
+use dashpot_studies::origin;
 
 /// The fewest and the most points of a file, whole groups of them: its rows are read at once, and some MB for each
 /// column are held meanwhile.
@@ -160,7 +160,7 @@ fn there(
         Some(own) if is_ours(&own) => Ok(own),
         own => {
             let differences = own.map(|own| wanted.identity.differences(&own.identity));
-            let fault = ShardFault::Taken(differences.unwrap_or_default());
+            let fault = crate::error::shards::ShardFault::Taken(differences.unwrap_or_default());
             Err(CliError::Shard { path: folder.path().to_owned(), fault })
         }
     };
@@ -279,7 +279,7 @@ impl Study for Parts<'_> {
         }));
         object! {
             #[serde(flatten)]
-            head: origin::head(scene, &crate::load),
+            head: origin::head(scene, &crate::input::load),
             sweep: &self.wanted.sweep,
             listed: varied.is_of_rows(),
             parameters,

@@ -9,7 +9,8 @@ use dashpot_analysis::{
 };
 use serde::{Deserialize, Serialize};
 
-use crate::{numbers::apart, output::list};
+use crate::output::list;
+use dashpot_report::numbers::apart;
 
 /// What is known of some points.
 #[derive(Debug, Default, Serialize, Deserialize)]
