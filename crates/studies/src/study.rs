@@ -4,7 +4,10 @@ use std::collections::HashSet;
 
 use dashpot_scene::Scene;
 
-use crate::{Answer, Context, Given, OptionInfo, Request, StudyError, operand::Operand};
+use crate::{
+    Answer, Assignment, Context, Given, Kind, OptionInfo, Request, Single as _, StudyError,
+    operand::Operand,
+};
 
 /// Name of the built-in scene.
 const BUILT_IN: &str = "reference";
