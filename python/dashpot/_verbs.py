@@ -79,11 +79,21 @@ def asked_of(
     texts: dict[str, str] = {}
     words = [_operand(own, texts) for own in operands]
     scene = next((own for own in operands if isinstance(own, Scene)), None)
-    verb = study["word"]
+    verb, wanted = study["word"], study["operands"]
+    if not (len(words) == len(wanted) or wanted == ["scene"] and not words):
+        given = f"`{verb}` takes {' and '.join(wanted)}, and options by name; {len(words)} were given"
+        raise SceneError([{"tone": "error", "message": given, **dict.fromkeys(("code", "help", "file", "line", "column"))}])
     known = {keyword_of(own["name"]): own["name"] for own in study["options"]}
     own = {keyword_of(name): value for name, value in options.items()}
+    further = [name for name in own if name not in known and name != "set"]
+    if further and all(name in (options_of(verb) or {}) for name in further):
+        # What the command alone does, such as to write a folder.
+        status, output, said = _answer(verb, operands, {**options, "json": True}, progress)
+        found = json.loads(output)
+        _warn(verb, operands, said, found)
+        return Result(found, status, said)
     check(verb, own, [*known, "set"])
-    pairs = [(name, values(name, value, scene)) for name, value in (own.pop("set", None) or {}).items()]
+    pairs = _set(own.pop("set", None) or {}, scene)
     request = {known[name]: value for name, value in own.items()}
     try:
         status, found, said = _dashpot.ask(verb, words, pairs, request, texts, progress)
@@ -91,6 +101,14 @@ def asked_of(
         raise type(error)(_in_python(verb, error.faults)) from None
     _warn(verb, operands, said, found)
     return Result(found, status, said)
+
+
+def _set(given: Any, scene: Any) -> list[tuple[str, str]]:
+    """Names and their values: of a dictionary, or of one or several texts with ``=`` between them."""
+    if isinstance(given, Mapping):
+        return [(name, values(name, value, scene)) for name, value in given.items()]
+    pairs = [own.rsplit("=", 1) for own in ([given] if isinstance(given, str) else given)]
+    return [(name.strip(), value.strip()) for name, value in pairs]
 
 
 def _in_python(verb: str, faults: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -10,10 +10,9 @@ use dashpot_studies::{
 use pyo3::{
     exceptions::PyTypeError,
     prelude::*,
-    types::{PyBool, PyDict, PyList, PyMapping, PyString},
+    types::{PyBool, PyDict, PyList, PyMapping, PyString, PyTuple},
 };
 use pythonize::pythonize;
-use serde_json::Value;
 
 use crate::{
     call::Work,
@@ -89,7 +88,15 @@ pub(crate) fn ask<'py>(
     let mut request = Vec::new();
     for (name, value) in options {
         let name: String = name.extract()?;
-        request.extend(given(&value)?.into_iter().map(|given| (name.clone(), given)));
+        let values = given(&value)?;
+        let is_one = study.options().iter().any(|own| own.name == name && own.several.is_none());
+        if is_one && values.len() > 1 {
+            return Err(PyTypeError::new_err(format!(
+                "`{name}` takes one value, not {}",
+                values.len()
+            )));
+        }
+        request.extend(values.into_iter().map(|given| (name.clone(), given)));
     }
     let asking = Asking::new(progress);
     let answered = py.detach(|| {
@@ -100,9 +107,11 @@ pub(crate) fn ask<'py>(
             let answer = study.solve((&operands, &set), &request, &mut memory);
             Some(match answer {
                 Ok(answer) => {
-                    let warnings = answer.report().warnings.into_iter();
+                    let warnings = answer.warnings().into_iter();
                     memory.said.extend(warnings.map(|own| Said::plain(Tone::Warning, own)));
-                    let object = serde_json::to_value(&*answer).unwrap_or(Value::Null);
+                    let object = Python::attach(|py| {
+                        Ok::<_, PyErr>(in_lists(pythonize(py, &*answer)?)?.unbind())
+                    });
                     Ok((answer.outcome(), object, memory.said))
                 }
                 Err(error) => Err((error.is_of_input(), faults(&error))),
@@ -116,7 +125,7 @@ pub(crate) fn ask<'py>(
                 Outcome::Done => 0,
                 Outcome::NotSame => 3,
             };
-            Ok((status, pythonize(py, &object)?, listed(py, &said)?))
+            Ok((status, object?.into_bound(py), listed(py, &said)?))
         }
         Some(Err((is_of_input, said))) => {
             let kind = if is_of_input { failure::Kind::Input } else { failure::Kind::Run };
@@ -124,6 +133,19 @@ pub(crate) fn ask<'py>(
         }
         None => Ok((0, py.None().into_bound(py), PyList::empty(py))),
     }
+}
+
+/// A result with lists in place of tuples, as JSON has them.
+fn in_lists(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    if let Ok(entries) = value.cast::<PyDict>() {
+        for (key, entry) in entries {
+            entries.set_item(key, in_lists(entry)?)?;
+        }
+    } else if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        let items = value.try_iter()?.map(|item| in_lists(item?)).collect::<PyResult<Vec<_>>>()?;
+        return Ok(PyList::new(value.py(), items)?.into_any());
+    }
+    Ok(value)
 }
 
 /// What an error says.
@@ -152,11 +174,7 @@ fn given(value: &Bound<'_, PyAny>) -> PyResult<Vec<Given>> {
         let mut all = Vec::new();
         for pair in named.items()?.iter() {
             let (name, value): (String, Bound<'_, PyAny>) = pair.extract()?;
-            let value = match value.cast::<PyString>() {
-                Ok(text) => Given::Text(text.extract()?),
-                Err(_) => Given::Number(value.extract()?),
-            };
-            all.push(Given::Named(name, Box::new(value)));
+            all.push(Given::Named(name, given(&value)?));
         }
         return Ok(all);
     }

@@ -108,6 +108,31 @@ def test_faults_of_studies_name_options_as_python_does():
         dashpot.vibrate("reference", drive="ground", of=[object()])
 
 
+def test_what_a_study_cannot_take_is_refused():
+    with pytest.raises(dashpot.SceneError, match="`at`: it takes an `amplitude`"):
+        dashpot.vibrate("reference", drive="ground", at=3.0)
+    with pytest.raises(dashpot.SceneError, match="takes scene, and options by name; 2 were given"):
+        dashpot.vibrate("reference", "reference", drive="ground")
+    with pytest.raises(dashpot.SceneError, match="takes first and second"):
+        dashpot.compare("reference:padding")
+    with pytest.raises(TypeError, match="`from` takes one value, not 2"):
+        dashpot.vibrate("reference", drive="ground", from_=[1.0, 2.0])
+
+
+def test_values_of_a_test_stand_side_by_side():
+    listed = dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": [1e-4, "0.2 ms"]})
+    texts = dashpot.rheometer("reference:padding", test="relaxation", with_={"rise": "0.1 ms,0.2 ms"})
+    assert len(listed["tests"]) == 2
+    assert [own["settings"] for own in listed["tests"]] == [own["settings"] for own in texts["tests"]]
+
+
+def test_a_study_writes_a_folder_as_the_command_does(tmp_path):
+    found = dashpot.vibrate("reference", drive="ground", set="head.mass=12 kg", out=str(tmp_path / "shaken"))
+    assert (tmp_path / "shaken" / "report.html").is_file()
+    assert found == dashpot.vibrate("reference", drive="ground", set={"head.mass": 12.0})
+    assert list(found)[:3] == ["dashpot", "title", "file"]
+
+
 def test_a_study_of_a_scene_in_memory_and_of_one_that_is_named_is_the_same():
     scene = dashpot.Scene("reference")
     assert dashpot.vibrate(scene, drive="ground")["responses"] == dashpot.vibrate("reference", drive="ground")["responses"]

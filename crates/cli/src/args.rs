@@ -17,6 +17,7 @@ use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
 use dashpot_studies::assignment;
+pub(crate) use dashpot_studies::operand::MODEL;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -24,10 +25,6 @@ use crate::{
     host,
     verbs::Arguments,
 };
-
-/// What may stand for a model.
-pub(crate) const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
-     has one model; FILE:NODE,NODE for the response of a network without moving masses";
 
 /// What may stand for a scene.
 pub(crate) const SCENE: &str = "File of the scene, `-` for standard input, or a built-in scene (reference, \

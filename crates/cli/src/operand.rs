@@ -1,6 +1,11 @@
 //! Scenes and models that the command line names, and what is said of them.
 
-use std::{ops::ControlFlow, path::Path};
+use std::{
+    collections::HashMap,
+    ffi::OsStr,
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+};
 
 use dashpot_scene::{BareNumbers, ModelNote, NamedModel, Scene, read, read_models};
 use dashpot_studies::{Context, Remark};
@@ -8,7 +13,9 @@ use dashpot_studies::{Context, Remark};
 use crate::{
     args::SceneArguments,
     error::{CliError, StudyError},
+    folder::Folder,
     input::{self, AsCommanded as _, Input, bare_numbers, load},
+    output::PAGE,
     progress::Bar,
     terminal::{Terminal, note},
 };
@@ -17,11 +24,36 @@ use crate::{
 pub(crate) struct Surroundings {
     terminal: Terminal,
     bar: Bar,
+    /// The folder that is asked for.
+    pub(crate) out: Option<PathBuf>,
+    /// What became of it.
+    opened: Option<Result<Folder, CliError>>,
+    /// Paths that are no texts, by those that stand for them.
+    paths: HashMap<String, PathBuf>,
 }
 
 impl Surroundings {
     pub(crate) fn of(verb: &str, terminal: Terminal) -> Self {
-        Self { terminal, bar: Bar::new(verb, 0.0, terminal.error.attended) }
+        let bar = Bar::new(verb, 0.0, terminal.error.attended);
+        Self { terminal, bar, out: None, opened: None, paths: HashMap::new() }
+    }
+
+    /// A text that stands for an operand.
+    pub(crate) fn name(&mut self, operand: &OsStr) -> String {
+        let name = operand.to_string_lossy().into_owned();
+        if operand.to_str().is_none() {
+            self.paths.insert(name.clone(), PathBuf::from(operand));
+        }
+        name
+    }
+
+    /// The folder that was opened.
+    pub(crate) fn folder(self) -> Result<Option<Folder>, CliError> {
+        self.opened.transpose()
+    }
+
+    fn path<'p>(&'p self, name: &'p str) -> &'p Path {
+        self.paths.get(name).map_or(Path::new(name), PathBuf::as_path)
     }
 }
 
@@ -31,11 +63,20 @@ impl Context for Surroundings {
     }
 
     fn has(&self, name: &str) -> bool {
-        Path::new(name).is_file()
+        self.path(name).is_file()
     }
 
     fn input(&self, name: &str) -> Result<Input, StudyError> {
-        input::read_input(Path::new(name))
+        input::read_input(self.path(name))
+    }
+
+    fn prepare(&mut self, files: Vec<String>) -> Result<(), StudyError> {
+        let names = files.into_iter().chain([PAGE.to_owned()]);
+        self.opened = Folder::wanted(self.out.as_deref(), names).transpose();
+        match self.opened {
+            Some(Err(_)) => Err(StudyError::Ended),
+            _ => Ok(()),
+        }
     }
 
     fn bare_numbers(&self) -> BareNumbers {

@@ -27,6 +27,8 @@ use crate::{
 pub struct Report {
     /// Title, or a verdict that stands for one.
     pub title: String,
+    /// What a verdict is about, behind it on its line; empty where the title says all.
+    pub subject: String,
     /// Tone of the title.
     pub tone: Tone,
     /// What a reader must know before any number.
@@ -119,6 +121,7 @@ impl Report {
     pub fn titled(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
+            subject: String::new(),
             tone: Tone::Heading,
             warnings: Vec::new(),
             asked: Vec::new(),
@@ -197,9 +200,8 @@ impl Report {
         let mut parts = vec![list("warnings", &self.warnings), list("verdict", &verdict)];
         parts.extend(self.network.iter().map(ReportFigure::network));
         parts.extend(self.blocks(Place::Pages).map(|block| match block {
-            Block::Table(table) => table.html(),
+            Block::Table(table) | Block::Rows(table) => table.html(),
             Block::Notes(notes) => list("notes", notes),
-            Block::Rows(table) => table.html(),
             Block::Heading(words, below) => heading(words, below),
             Block::Chart(_) => String::new(),
         }));
@@ -208,6 +210,6 @@ impl Report {
         }
         let details = self.details.iter().filter(|table| !table.rows.is_empty());
         parts.extend(details.map(Table::html));
-        Ok(whole(&self.title, parts, &self.scene_text))
+        Ok(whole(&format!("{}{}", self.title, self.subject), parts, &self.scene_text))
     }
 }

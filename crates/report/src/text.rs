@@ -27,7 +27,11 @@ impl Text {
     /// A whole report; its charts only where they are to be `plotted`.
     pub fn report(&mut self, report: &Report, plotted: bool) {
         self.warnings(&report.warnings);
-        self.toned(report.tone, &report.title);
+        if report.subject.is_empty() {
+            self.toned(report.tone, &report.title);
+        } else {
+            self.begun(report.tone, &report.title, &report.subject);
+        }
         report.asked.iter().for_each(|asked| self.faint(asked));
         if !report.verdict.is_empty() {
             self.blank();

@@ -76,19 +76,23 @@ impl Single for Assignment {
     const IS_DIVIDED: bool = false;
 
     fn of(given: &Given) -> Result<Self, String> {
-        let (name, value) = match given {
-            Given::Named(name, value) => (name.clone(), (**value).clone()),
+        let (name, given) = match given {
+            Given::Named(name, values) => (name.clone(), values.clone()),
             Given::Text(text) => {
-                assignment(text).map(|(name, value)| (name, Given::Text(value)))?
+                let (name, value) = assignment(text)?;
+                (name, vec![Given::Text(value)])
             }
             _ => return Err(ASSIGNMENT.to_owned()),
         };
-        let values = match value {
-            Given::Text(text) => {
-                text.split(',').map(|part| Amount::Text(part.trim().to_owned())).collect()
+        let mut values = Vec::new();
+        for value in &given {
+            match value {
+                Given::Text(text) => {
+                    values.extend(text.split(',').map(|part| Amount::Text(part.trim().to_owned())));
+                }
+                value => values.push(Amount::of(value)?),
             }
-            value => vec![Amount::of(&value)?],
-        };
+        }
         Ok(Self { name, values })
     }
 }

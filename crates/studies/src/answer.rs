@@ -12,6 +12,11 @@ pub trait Answer: erased_serde::Serialize {
     /// What it says to people.
     fn report(&self) -> Report;
 
+    /// What the reader must know first.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Its tables for programs.
     fn tables(&self) -> Vec<DataTable<'_>> {
         Vec::new()

@@ -55,6 +55,16 @@ pub trait Context {
     /// Is told what is to be known beside the result.
     fn remark(&mut self, _remark: Remark<'_>) {}
 
+    /// Is told, before the work, which files the answer may be written to, but for the page and the object. An error ends
+    /// the work.
+    ///
+    /// # Errors
+    ///
+    /// Why they cannot be written.
+    fn prepare(&mut self, _files: Vec<String>) -> Result<(), StudyError> {
+        Ok(())
+    }
+
     /// Is told that `done` of so many are done; `Break` ends the work.
     fn progress(&mut self, _done: usize, _of: usize) -> ControlFlow<()> {
         ControlFlow::Continue(())

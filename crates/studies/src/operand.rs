@@ -11,6 +11,10 @@ use dashpot_scene::{
 
 use crate::{Context, Input, Remark, StudyError};
 
+/// What may stand for a model.
+pub const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
+     has one model; FILE:NODE,NODE for the response of a network without moving masses";
+
 /// What a word stands for.
 #[derive(Debug)]
 pub struct Operand {

@@ -11,8 +11,8 @@ pub enum Given {
     Number(f64),
     /// On or off.
     Switch(bool),
-    /// A value with the name that it is for.
-    Named(String, Box<Self>),
+    /// Values with the name that they are for.
+    Named(String, Vec<Self>),
 }
 
 /// What an option takes.
@@ -223,7 +223,7 @@ impl Single for usize {
     fn of(given: &Given) -> Result<Self, String> {
         let wanted = || "a whole number is wanted".to_owned();
         match given {
-            Given::Text(text) => text.trim().parse().map_err(|_| wanted()),
+            Given::Text(text) => text.parse().map_err(|_| wanted()),
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
@@ -240,7 +240,7 @@ impl Single for String {
 
     fn of(given: &Given) -> Result<Self, String> {
         match given {
-            Given::Text(text) => Ok(text.trim().to_owned()),
+            Given::Text(text) => Ok(text.clone()),
             Given::Number(number) => Ok(number.to_string()),
             _ => Err("a text is wanted".to_owned()),
         }

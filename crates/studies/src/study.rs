@@ -38,8 +38,10 @@ pub trait Study: Sync {
     /// Its options.
     fn options(&self) -> &'static [OptionInfo];
 
-    /// The names of all files that its reports and tables may have in a folder.
-    fn files(&self) -> Vec<String>;
+    /// Whether it has tables and figures to write.
+    fn has_files(&self) -> bool {
+        true
+    }
 
     /// Asks it about these operands with the values `set` in their texts, and with what is given for its options.
     ///

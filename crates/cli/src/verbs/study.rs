@@ -1,6 +1,6 @@
 //! The verbs that are studies: their arguments follow from what a study says of itself.
 
-use std::path::PathBuf;
+use std::{cell::OnceCell, ffi::OsString, path::PathBuf};
 
 use clap::{
     Arg, ArgAction, ArgMatches, Args as _, Command, FromArgMatches, Subcommand,
@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::{
     args::{MODEL, MethodNames, SCENE, ValueArguments, When},
     error::{CliError, Status},
-    folder::{Folder, Staged},
+    folder::Staged,
     operand::Surroundings,
     output::{PAGE, Study, Text, emit},
     terminal::Terminal,
@@ -33,7 +33,7 @@ const OF_SCENE: &str = "scene";
 /// A study as it is asked for.
 pub(crate) struct StudyArguments {
     study: &'static dyn AnyStudy,
-    operands: Vec<String>,
+    operands: Vec<OsString>,
     set: Vec<(String, String)>,
     given: Vec<(String, Given)>,
     out: Option<PathBuf>,
@@ -56,19 +56,24 @@ fn command(study: &dyn AnyStudy) -> Command {
     let mut command = Command::new(study.word()).after_help(study.manual());
     match study.operands() {
         Operands::Scene => {
-            command = command.arg(Arg::new(OF_SCENE).value_name("SCENE").help(SCENE));
+            command = command.arg(
+                Arg::new(OF_SCENE)
+                    .value_name("SCENE")
+                    .value_parser(value_parser!(OsString))
+                    .help(SCENE),
+            );
         }
         Operands::Models(operands) => {
             for (name, help) in operands {
                 let help = if help.is_empty() { MODEL } else { help };
                 let operand = Arg::new(*name).value_name(name.to_uppercase()).help(help);
-                command = command.arg(operand.required(true));
+                command = command.arg(operand.value_parser(value_parser!(OsString)).required(true));
             }
         }
     }
     command = command.args(study.options().iter().map(option));
     command = ValueArguments::augment_args(command);
-    if has_files(study) {
+    if study.has_files() {
         let out = Arg::new(OUT).long(OUT).value_name("DIR").value_parser(value_parser!(PathBuf));
         command = command.arg(out.help(
             "Folder for CSV, JSON, SVG and report.html with all on one page; it is made if need be",
@@ -76,18 +81,13 @@ fn command(study: &dyn AnyStudy) -> Command {
     }
     let json = Arg::new(JSON).long(JSON).action(ArgAction::SetTrue);
     command = command.arg(json.help("Prints one JSON object, in SI units, in place of text"));
-    if has_files(study) {
+    if study.has_files() {
         let plot = Arg::new(PLOT).long(PLOT).value_name("WHEN").default_value("auto");
         let plot = plot.value_parser(value_parser!(When)).conflicts_with(JSON);
         command = command.arg(plot.help("Plots in the text; `auto` draws them on terminals"));
     }
     // The arguments that were added have sentences of their own.
     command.about(study.about())
-}
-
-/// Whether a study has more to write than its object.
-fn has_files(study: &dyn AnyStudy) -> bool {
-    !study.files().is_empty()
 }
 
 fn option(info: &OptionInfo) -> Arg {
@@ -113,7 +113,8 @@ fn option(info: &OptionInfo) -> Arg {
     };
     let arg = if info.default.is_empty() { arg } else { arg.default_value(info.default) };
     let arg = if info.requires.is_empty() { arg } else { arg.requires(info.requires) };
-    arg.value_name(info.place).allow_hyphen_values(!matches!(info.kind, Kind::Words(_)))
+    arg.value_name(info.place)
+        .allow_hyphen_values(matches!(info.kind, Kind::Quantity(_) | Kind::Amount))
 }
 
 impl FromArgMatches for StudyArguments {
@@ -125,7 +126,7 @@ impl FromArgMatches for StudyArguments {
             Operands::Scene => vec![OF_SCENE],
             Operands::Models(operands) => operands.iter().map(|operand| operand.0).collect(),
         };
-        let operands = operands.into_iter().filter_map(|name| matches.get_one::<String>(name));
+        let operands = operands.into_iter().filter_map(|name| matches.get_one::<OsString>(name));
         let is_given =
             |info: &&OptionInfo| matches.value_source(info.name) == Some(ValueSource::CommandLine);
         let mut given = Vec::new();
@@ -137,7 +138,7 @@ impl FromArgMatches for StudyArguments {
             let values = matches.get_many::<String>(info.name).into_iter().flatten();
             given.extend(values.map(|text| (info.name.to_owned(), Given::Text(text.clone()))));
         }
-        let has_files = has_files(study);
+        let has_files = study.has_files();
         Ok(Self {
             study,
             operands: operands.cloned().collect(),
@@ -176,21 +177,22 @@ impl Subcommand for StudyArguments {
 /// An answer with its report.
 struct Shown<'a> {
     answer: &'a dyn Answer,
-    report: Report,
+    report: OnceCell<Report>,
     is_plotted: bool,
 }
 
 impl StudyArguments {
     /// Asks the study, and shows what it answers.
     pub(crate) fn run(&self, terminal: Terminal) -> Result<Status, CliError> {
-        let files = self.study.files().into_iter().chain([PAGE.to_owned()]);
-        let folder = Folder::wanted(self.out.as_deref(), files)?;
         let mut surroundings = Surroundings::of(self.study.word(), terminal);
-        let asked = (&self.operands[..], &self.set[..]);
-        let answer = self.study.solve(asked, &self.given, &mut surroundings)?;
-        drop(surroundings);
+        surroundings.out.clone_from(&self.out);
+        let operands: Vec<String> =
+            self.operands.iter().map(|operand| surroundings.name(operand)).collect();
+        let answer = self.study.solve((&operands, &self.set), &self.given, &mut surroundings);
+        let folder = surroundings.folder()?;
+        let answer = answer?;
         let is_plotted = self.plot.is_now(terminal.output.attended);
-        let shown = Shown { answer: &*answer, report: answer.report(), is_plotted };
+        let shown = Shown { answer: &*answer, report: OnceCell::new(), is_plotted };
         emit(&shown, self.json, folder, terminal)?;
         Ok(match answer.outcome() {
             Outcome::Done => Status::Done,
@@ -199,13 +201,19 @@ impl StudyArguments {
     }
 }
 
+impl Shown<'_> {
+    fn report(&self) -> &Report {
+        self.report.get_or_init(|| self.answer.report())
+    }
+}
+
 impl Study for Shown<'_> {
     fn text(&self, text: &mut Text) {
-        text.report(&self.report, self.is_plotted);
+        text.report(self.report(), self.is_plotted);
     }
 
     fn warnings(&self) -> Vec<String> {
-        self.report.warnings.clone()
+        self.answer.warnings()
     }
 
     fn object(&self) -> impl Serialize {
@@ -216,8 +224,8 @@ impl Study for Shown<'_> {
         for table in self.answer.tables() {
             files.add_with(table.file.clone(), |out| table.write(out))?;
         }
-        files.add(PAGE, self.report.html()?)?;
-        for figure in self.report.figures() {
+        files.add(PAGE, self.report().html()?)?;
+        for figure in self.report().figures() {
             files.add(figure.file.clone(), figure.drawn()?.svg)?;
         }
         Ok(())

@@ -93,8 +93,8 @@ impl Study for Compare {
          Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong."
     }
 
-    fn files(&self) -> Vec<String> {
-        Vec::new()
+    fn has_files(&self) -> bool {
+        false
     }
 
     fn solve(

@@ -18,7 +18,8 @@ pub(super) fn report(comparison: &Comparison) -> Report {
     let [first, second] = &comparison.compared;
     let (verdict, tone) =
         if comparison.same { ("The same", Tone::Heading) } else { ("Not the same", Tone::Warning) };
-    let mut report = Report::titled(format!("{verdict}: {first} and {second}"));
+    let mut report = Report::titled(verdict);
+    report.subject = format!(": {first} and {second}");
     report.tone = tone;
     report.notes(sentences(comparison));
     report.tables(comparison.forms.iter().map(Form::table));

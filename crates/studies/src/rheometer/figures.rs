@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dashpot_analysis::rheometer::{LoadUnload, PROTOCOLS, RheometerReport, Series};
+use dashpot_analysis::rheometer::{LoadUnload, RheometerReport, Series};
 use dashpot_network::parameters::Kind as _;
 use dashpot_plot::{
     Chart, Loop, LoopSeries, Measured, ModelSeries, ModelSubject, RheometerLine, RheometerSeries,
@@ -14,7 +14,7 @@ use dashpot_report::{
 };
 use dashpot_rheology::MaxwellForm;
 
-use super::{Made, Tested, Units, beside::MeasuredLoop, variants::MOST_VARIANTS};
+use super::{Made, Tested, Units, beside::MeasuredLoop};
 use crate::{DataTable, list};
 
 /// Points of a curve of a model, and how far beyond its times it goes.
@@ -61,13 +61,9 @@ fn measured_under_force(measured: Measured) -> bool {
     matches!(measured, Measured::Deformation | Measured::Strain)
 }
 
-/// The names of all files that there may be.
-pub(super) fn files() -> Vec<String> {
-    let models = MODEL_FIGURES.iter().map(|own| format!("model-{}.svg", own.name));
-    let tests = PROTOCOLS.iter().flat_map(|protocol| {
-        let variants = (1..=MOST_VARIANTS).map(|at| format!("{}-{at}", protocol.word));
-        [protocol.word.to_owned()].into_iter().chain(variants)
-    });
+/// The names of all files, with those of these tests.
+pub(super) fn files<'n>(tests: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let models = MODEL_FIGURES.iter().map(|figure| format!("model-{}.svg", figure.name));
     let tests = tests.flat_map(|test| [format!("{test}.csv"), format!("{test}.svg")]);
     models.chain(tests).collect()
 }

@@ -23,14 +23,11 @@ use self::{
 use crate::{
     Answer, Assignment, Context, DataTable, Given, Kind, Operands, OptionInfo, Remark, Request,
     Single, Study, StudyError, list,
-    operand::{Operand, canonical_model},
+    operand::{MODEL, Operand, canonical_model},
     request,
     study::{self, about_study},
 };
 
-/// What may stand for a model.
-const MODEL: &str = "FILE:NAME, a model, material or element of a file or of a built-in scene; FILE alone if it \
-     has one model; FILE:NODE,NODE for the response of a network without moving masses";
 /// Unit of a strain rate.
 const STRAIN_RATE: &str = "1/s";
 
@@ -143,6 +140,8 @@ pub fn rheometer(
             (test.clone(), name, variant)
         }));
     }
+    let names = asked.iter().flat_map(|(test, name, _)| [test.as_str(), name]);
+    context.prepare(figures::files(names))?;
     let (mut made, of) = (Vec::new(), asked.len());
     for (at, (test, name, variant)) in asked.into_iter().enumerate() {
         if context.progress(at, of).is_break() {
@@ -240,10 +239,6 @@ impl Study for Rheometer {
          Each test of a linear model is computed from its poles and residues in closed form, and \
          independently from the equations of its network; both are shown. Any other model is \
          simulated. `dashpot list tests` tells of each test and its parameters."
-    }
-
-    fn files(&self) -> Vec<String> {
-        figures::files()
     }
 
     fn solve(

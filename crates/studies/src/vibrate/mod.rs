@@ -92,12 +92,23 @@ pub fn vibrate(
         of: request.of.clone(),
         at: request.at.map(|at| at.0),
     };
+    let kind = vibration.drive().kind;
+    context.prepare(report::files(&vibration.quantities(&settings.of)?, kind))?;
     let sweep = vibration.sweep_watched(&settings, &mut |done, of| context.progress(done, of))?;
     let steady = match (settings.at, &request.amplitude) {
         (Some(frequency), Some(text)) => {
             Some(vibration.steady(frequency, amplitude(&vibration, frequency, text)?)?)
         }
-        _ => None,
+        (None, None) => None,
+        (Some(_), None) => {
+            return Err(StudyError::setting("--at", "it takes an `--amplitude` as well"));
+        }
+        (None, Some(_)) => {
+            return Err(StudyError::setting(
+                "--amplitude",
+                "it takes a frequency, `--at`, as well",
+            ));
+        }
     };
     let settings = Table::plain("Settings", origin::rows(scene, &|name| context.load(name)));
     Ok(Vibrated {
@@ -184,6 +195,11 @@ impl Answer for Vibrated {
         report::report(self)
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let warnings = self.steady.iter().flat_map(|steady| &steady.warnings);
+        list(warnings.map(VibrationWarning::to_string))
+    }
+
     fn tables(&self) -> Vec<DataTable<'_>> {
         vec![report::table(&self.sweep)]
     }
@@ -205,10 +221,6 @@ impl Study for Vibrate {
          One load or motion is a sine of any small size, all others are silent: the functions of \
          time in the scene, weights and start speeds do not matter. A fixed node such as `ground` may \
          be shaken too. Scenes that switch or are not linear are refused."
-    }
-
-    fn files(&self) -> Vec<String> {
-        report::files()
     }
 
     fn solve(

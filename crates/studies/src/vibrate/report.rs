@@ -15,7 +15,7 @@ use dashpot_report::{
 use dashpot_units::STANDARD_GRAVITY as GRAVITY;
 
 use super::Vibrated;
-use crate::{DataTable, list};
+use crate::{Answer as _, DataTable, list};
 
 /// Ratios and phases at all frequencies.
 const TABLE: &str = "response.csv";
@@ -34,9 +34,9 @@ const NONE: &str = "–";
 pub(super) fn report(vibrated: &Vibrated) -> Report {
     let Vibrated { sweep, steady, page, .. } = vibrated;
     let mut report = Report::titled(&page.title);
+    report.warnings = vibrated.warnings();
     report.asked.push(drive(sweep));
     if let Some(state) = steady {
-        report.warnings.extend(state.warnings.iter().map(VibrationWarning::to_string));
         report.tables(self::steady(state));
         report.tables(vibrated.is_chosen.then(|| ratios(sweep, state.frequency)));
         report.notes(steady_notes(state));
@@ -63,11 +63,9 @@ pub(super) fn report(vibrated: &Vibrated) -> Report {
     report
 }
 
-/// The names of all files that there may be.
-pub(super) fn files() -> Vec<String> {
-    let kinds = [DriveKind::Motion, DriveKind::Load];
-    let titles = kinds.map(|kind| QUANTITIES.iter().map(move |quantity| title(quantity, kind)));
-    let figures = titles.into_iter().flatten().map(|title| figure(&title));
+/// The names of all files, with a figure for each of these quantities.
+pub(super) fn files(quantities: &[&Quantity], drive: DriveKind) -> Vec<String> {
+    let figures = quantities.iter().map(|quantity| figure(&title(quantity, drive)));
     figures.chain([PHASE, TABLE].map(str::to_owned)).collect()
 }
 
