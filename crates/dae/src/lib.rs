@@ -25,7 +25,7 @@ pub use error::SolveError;
 pub use events::{Direction, Event, Guard};
 pub use exact::Shared;
 pub use methods::{Method, MethodKind, derivatives};
-pub use outputs::{Output, Outputs};
+pub use outputs::{Output, OutputName, Outputs};
 pub use run::{Digest, Jump, Keep, Observer, Part, Product, Progress, Run, Silent};
 pub use signal::{Crossing, Extremum, Panel, Signal};
 pub use switching::{IntervalEnd, ModeInterval, PredictedEvent, Switching};

@@ -248,6 +248,12 @@ impl Forms {
         self.ends.push(packed(self.variables.len()));
     }
 
+    /// How many there are.
+    #[expect(clippy::len_without_is_empty, reason = "nobody asks")]
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
     /// The form of this number.
     ///
     /// # Panics

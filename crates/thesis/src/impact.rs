@@ -52,7 +52,7 @@ impl Impact {
         let trajectory = Exact.integrate(&assembly.system, &Run::to(DURATION), &mut Silent)?;
         let signal = |name: &str| {
             let outputs = assembly.system.outputs.iter();
-            let known = || outputs.map(|output| output.name.to_owned()).collect();
+            let known = || outputs.map(|output| output.name.to_string()).collect();
             let none = || RunError::UnknownOutput { output: name.to_owned(), known: known() };
             assembly.output(name).map(|at| trajectory.signal(&assembly.system, at)).ok_or_else(none)
         };

@@ -36,7 +36,7 @@ fn difference(one: &RunReport, two: &RunReport) -> f64 {
     let mut worst = 0.0_f64;
     let mut common = 0;
     for (at, output) in outputs.iter().enumerate() {
-        let Some(other) = two.assembly.output(output.name) else { continue };
+        let Some(other) = two.assembly.output(&output.name.to_string()) else { continue };
         common += 1;
         let (a, b) = (first.signal(at), second.signal(other));
         let size = scale(output.unit);

@@ -93,7 +93,7 @@ impl Trial<'_> {
         let at = self.report.assembly.output(output);
         self.solution.signal(at.unwrap_or_else(|| {
             let outputs = &self.report.assembly.system.outputs;
-            let known: Vec<&str> = outputs.iter().map(|output| output.name).collect();
+            let known: Vec<_> = outputs.iter().map(|output| output.name.to_string()).collect();
             panic!("no {output} in {known:?}")
         }))
     }

@@ -43,9 +43,9 @@ pub fn table_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -
     let mut own = outputs_at(assembly, trajectory, times);
     let accelerations = assembly.nodes.iter().filter_map(|node| node.acceleration);
     let outputs = &assembly.system.outputs;
-    let names: Vec<&str> =
-        accelerations.filter_map(|at| outputs.get(at)).map(|output| output.name).collect();
-    for column in own.columns.iter_mut().filter(|own| names.contains(&own.name.as_str())) {
+    let names = accelerations.filter_map(|at| outputs.get(at)).map(|output| output.name);
+    let names: Vec<_> = names.collect();
+    for column in own.columns.iter_mut().filter(|own| names.iter().any(|name| *name == *own.name)) {
         // A zero has no sign.
         column.values.iter_mut().for_each(|value| *value = 0.0 - *value);
     }
@@ -65,7 +65,7 @@ fn outputs_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> 
     let numbers: Vec<usize> = all.filter(|&at| trajectory.keeps(system, at)).collect();
     if assembly.switching.is_some() || trajectory.digest().is_some() {
         let column = |&at: &usize| Column {
-            name: system.outputs.at(at).name.to_owned(),
+            name: system.outputs.at(at).name.to_string(),
             unit: system.outputs.at(at).unit,
             values: trajectory.signal(system, at).sample(&times),
         };
@@ -86,7 +86,7 @@ fn outputs_at(assembly: &Assembly, trajectory: &Trajectory, times: Vec<f64>) -> 
         }
     }
     let columns = outputs.iter().zip(values).map(|(output, values)| Column {
-        name: output.name.to_owned(),
+        name: output.name.to_string(),
         unit: output.unit,
         values,
     });

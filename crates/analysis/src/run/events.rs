@@ -26,7 +26,7 @@ pub(crate) fn collect(
     let guards = crossings.filter_map(|(event, error)| {
         let guard = run.guards.get(event.guard)?;
         let output = assembly.system.outputs.at(guard.output);
-        let (name, unit) = (output.name.to_owned(), output.unit);
+        let (name, unit) = (output.name.to_string(), output.unit);
         let stop = Stop { output: name, level: guard.level, direction: guard.direction };
         let what = Event::Condition { stop, unit };
         Some(EventReport { time: event.time, error: *error, what, stops: guard.stops })

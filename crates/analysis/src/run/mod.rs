@@ -253,7 +253,7 @@ pub(crate) fn guards(
     let guard = |stop: &Stop| {
         let output = assembly.output(&stop.output).ok_or_else(|| RunError::UnknownOutput {
             output: stop.output.clone(),
-            known: assembly.system.outputs.iter().map(|output| output.name.to_owned()).collect(),
+            known: assembly.system.outputs.iter().map(|output| output.name.to_string()).collect(),
         })?;
         Ok(Guard {
             name: stop.text(assembly.system.outputs.at(output).unit),

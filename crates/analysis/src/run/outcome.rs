@@ -118,7 +118,7 @@ fn all_kept(solution: &Solution<'_>) -> Result<(), RunError> {
     }
     let outputs = &solution.assembly().system.outputs;
     let names = missing.iter().filter_map(|&at| outputs.get(at));
-    Err(RunError::NotKept { outputs: names.map(|output| output.name.to_owned()).collect() })
+    Err(RunError::NotKept { outputs: names.map(|output| output.name.to_string()).collect() })
 }
 
 fn solver_report(task: &Task<'_>, outcome: &Outcome) -> SolverReport {

@@ -133,12 +133,12 @@ impl Graph<'_> {
 
     /// The dimensionless system and where everything is found in it.
     fn complete(
-        &self,
+        self,
         drives: &[Drive],
         (motion, places, inputs): (&Motion, &mut Places, &mut Inputs),
         duration: f64,
     ) -> Result<Compiled, NetworkErrors> {
-        let Self { network, expansion, bodies, structure, scales } = self;
+        let Self { network, expansion, ref bodies, mut structure, ref scales } = self;
         let mut offsets = Rows::default();
         for (joint, &offset) in bodies.offset.iter().enumerate().filter(|own| *own.1 != 0.0) {
             offsets.set(joint, &inputs.constant(offset));
@@ -157,13 +157,14 @@ impl Graph<'_> {
         if !expansion.switches && !expansion.primitives.iter().any(|own| own.law == Law::Rigid) {
             // Only rigid links and other phases go by them: a ninth of what a large network holds here.
             *places = Places::default();
+            (structure.springs, structure.dashpots) = Default::default();
         }
         let mass = |joint: usize| network.nodes.get(joint).map_or(0.0, |node| node.mass);
         let masses: Vec<f64> = (0..expansion.joints).map(mass).collect();
         let parts = Parts {
             expansion,
             bodies,
-            structure,
+            structure: &structure,
             motion,
             places,
             drives,
@@ -176,7 +177,7 @@ impl Graph<'_> {
         system.outputs = list;
         let warnings = review::warnings(network, &parts);
         let transfer = expansion.switches.then(|| Transfer::of(&parts, inputs, &system, duration));
-        let kinks = structure.kinks.clone();
+        let kinks = structure.kinks;
         Ok(Compiled { system, nodes, connections, primitives, drives, warnings, transfer, kinks })
     }
 

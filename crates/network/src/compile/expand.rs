@@ -1,6 +1,6 @@
 //! Models expanded into primitives between joints.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{collections::HashMap, ops::Range, sync::Arc};
 
 use dashpot_rheology::{MOST_LEVELS, Tree};
 
@@ -84,14 +84,14 @@ impl Primitive {
     }
 }
 
-/// How the primitives of a connection are composed; children stand after their parent.
+/// How the primitives of a connection are composed; children stand side by side after their parent.
 #[derive(Debug, Clone)]
 pub(crate) enum Shape {
     Leaf(usize),
-    Series(Vec<usize>),
-    Parallel(Vec<usize>),
+    Series(Range<usize>),
+    Parallel(Range<usize>),
     /// In a row with masses between them, so that their forces differ.
-    Row(Vec<usize>),
+    Row(Range<usize>),
 }
 
 impl Shape {
@@ -112,7 +112,7 @@ pub(crate) struct Expansion {
     /// How large the motion is, where that is known.
     pub(crate) size: Option<Size>,
     /// For each connection its shape, the root first.
-    pub(crate) shapes: Vec<Vec<Shape>>,
+    pub(crate) shapes: Vec<Box<[Shape]>>,
     /// For each joint inside of a model the name of its connection; `None` for nodes.
     pub(crate) owners: Vec<Option<String>>,
 }
@@ -205,12 +205,12 @@ impl Expansion {
         copy
     }
 
-    fn shapes_of(&mut self, connection: &Connection) -> Vec<Shape> {
-        let mut shapes = vec![Shape::Series(Vec::new())];
+    fn shapes_of(&mut self, connection: &Connection) -> Box<[Shape]> {
+        let mut shapes = vec![Shape::Series(0..0)];
         let ends = connection.between.map(|id| id.0);
         let root = Site { ends, path: connection.name.clone(), shape: 0, levels: 0 };
         self.expand(connection, &connection.model, root, &mut shapes);
-        shapes
+        shapes.into_boxed_slice()
     }
 
     /// Expands a model of `whole`; what is nested too deeply, and refused, stays empty.
@@ -238,8 +238,8 @@ impl Expansion {
             return;
         }
         let (branches, in_series) = (model.branches(), model.is_series());
-        let children: Vec<usize> = (shapes.len()..shapes.len() + branches.len()).collect();
-        shapes.resize(shapes.len() + branches.len(), Shape::Series(Vec::new()));
+        let children = shapes.len()..shapes.len() + branches.len();
+        shapes.resize(children.end, Shape::Series(0..0));
         shapes[shape] = match in_series {
             true if shape == 0 && !whole.through.is_empty() => Shape::Row(children.clone()),
             true => Shape::Series(children.clone()),

@@ -2,15 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use dashpot_numerics::packed;
+
 use super::{drives::Drive, expand::Expansion};
 
 /// The primitives at each joint and the drives of each body.
 #[derive(Debug)]
 pub(super) struct Incidence {
     /// Where the primitives of each joint end in `primitives`.
-    ends: Vec<usize>,
+    ends: Vec<u32>,
     /// Primitives, each with the sign of its force on the joint.
-    primitives: Vec<(usize, f64)>,
+    primitives: Vec<(u32, f32)>,
     /// Drives by body, and by node, where there are any.
     by_body: BTreeMap<usize, Vec<usize>>,
     by_node: BTreeMap<usize, Vec<usize>>,
@@ -18,7 +20,7 @@ pub(super) struct Incidence {
 
 impl Incidence {
     pub(super) fn of(expansion: &Expansion, drives: &[Drive]) -> Self {
-        let mut ends = vec![0; expansion.joints];
+        let mut ends = vec![0_u32; expansion.joints];
         for joint in expansion.primitives.iter().flat_map(|primitive| primitive.ends) {
             ends[joint] += 1;
         }
@@ -28,10 +30,10 @@ impl Incidence {
             *end = sum;
             sum += count;
         }
-        let mut primitives = vec![(0, 0.0); sum];
+        let mut primitives = vec![(0, 0.0); sum as usize];
         for (at, primitive) in expansion.primitives.iter().enumerate() {
             for (joint, sign) in primitive.ends.into_iter().zip([-1.0, 1.0]) {
-                primitives[ends[joint]] = (at, sign);
+                primitives[ends[joint] as usize] = (packed(at), sign);
                 ends[joint] += 1;
             }
         }
@@ -45,9 +47,10 @@ impl Incidence {
     }
 
     /// The primitives at a joint, each with the sign of its force on it.
-    pub(super) fn at_joint(&self, joint: usize) -> &[(usize, f64)] {
+    pub(super) fn at_joint(&self, joint: usize) -> impl Iterator<Item = (usize, f64)> {
         let start = joint.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.primitives[start..self.ends[joint]]
+        let own = &self.primitives[start as usize..self.ends[joint] as usize];
+        own.iter().map(|&(at, sign)| (at as usize, f64::from(sign)))
     }
 
     /// The drives of a body.

@@ -40,7 +40,7 @@ impl<'c> Search<'c, '_> {
         if let Shape::Series(children) | Shape::Row(children) | Shape::Parallel(children) =
             &self.shapes[shape]
         {
-            for (own, &shape) in model.branches().iter().zip(children) {
+            for (own, shape) in model.branches().iter().zip(children.clone()) {
                 self.names.push(&own.name);
                 self.walk(&own.tree, shape);
                 self.names.pop();

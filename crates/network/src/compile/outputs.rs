@@ -325,18 +325,18 @@ pub(super) fn composed<T: Scalar>(
         found[at] = match shape {
             Shape::Leaf(primitive) => (row(*primitive), prefer(*primitive)),
             Shape::Series(children) => children
-                .iter()
-                .map(|&child| (found[child].0.clone(), found[child].1))
+                .clone()
+                .map(|child| (found[child].0.clone(), found[child].1))
                 .min_by(|a, b| a.0.is_none().cmp(&b.0.is_none()).then(a.1.total_cmp(&b.1)))
                 .unwrap_or((None, f64::INFINITY)),
             // The force on the impactor's side.
             Shape::Row(children) => {
-                children.first().map_or((None, f64::INFINITY), |&child| found[child].clone())
+                children.clone().next().map_or((None, f64::INFINITY), |child| found[child].clone())
             }
             Shape::Parallel(children) => {
                 let rows: Option<Vec<&Row<T>>> =
-                    children.iter().map(|&child| found[child].0.as_ref()).collect();
-                let rank = children.iter().map(|&child| found[child].1).fold(0.0, f64::max);
+                    children.clone().map(|child| found[child].0.as_ref()).collect();
+                let rank = children.clone().map(|child| found[child].1).fold(0.0, f64::max);
                 (rows.map(|rows| total(&rows)), rank)
             }
         };
@@ -351,11 +351,13 @@ fn summed(shapes: &[Shape], row: &impl Fn(usize) -> Option<Row>) -> Option<Row> 
         found[at] = match shape {
             Shape::Leaf(primitive) => row(*primitive),
             Shape::Series(children) | Shape::Row(children) => children
-                .iter()
-                .map(|&child| found[child].as_ref())
+                .clone()
+                .map(|child| found[child].as_ref())
                 .collect::<Option<Vec<&Row>>>()
                 .map(|rows| total(&rows)),
-            Shape::Parallel(children) => children.first().and_then(|&child| found[child].clone()),
+            Shape::Parallel(children) => {
+                children.clone().next().and_then(|child| found[child].clone())
+            }
         };
     }
     found.swap_remove(0)

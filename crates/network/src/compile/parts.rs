@@ -42,7 +42,7 @@ impl Parts<'_> {
 
     /// Adds `sign` times the forces of springs and dashpots on these joints.
     pub(super) fn add_forces(&self, joints: &[usize], sign: f64, sum: &mut RowSum) {
-        for &(primitive, own) in joints.iter().flat_map(|&joint| self.incidence.at_joint(joint)) {
+        for (primitive, own) in joints.iter().flat_map(|&joint| self.incidence.at_joint(joint)) {
             if let Some(force) = self.motion.force.get(primitive) {
                 sum.add(sign * own, &force);
             }

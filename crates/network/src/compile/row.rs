@@ -7,9 +7,9 @@ use dashpot_numerics::{Coefficient, DoubleDouble, LinearForm, packed};
 /// What rows are made of: numbers of twice the digits of a double, of which the small rest of large terms keeps its
 /// own, or [traced](super::parametric) ones. Of a spring in parallel with the fastest dashpot of a chain only what the other
 /// dashpots give way to is left.
-pub(super) trait Scalar: Coefficient + From<f64> + Div<Output = Self> {}
+pub(super) trait Scalar: Coefficient + From<f64> + Div<Output = Self> + PartialEq {}
 
-impl<T: Coefficient + From<f64> + Div<Output = T>> Scalar for T {}
+impl<T: Coefficient + From<f64> + Div<Output = T> + PartialEq> Scalar for T {}
 
 /// What can be scaled and added: numbers and [`Row`]s.
 pub(super) trait Combination: Clone + Default {
@@ -69,7 +69,8 @@ impl<T: Scalar> Combination for Row<T> {
 }
 
 /// Numbered rows, one behind the other: a large network has some ten for each of its masses. A row takes
-/// 12 bytes and 20 for each term.
+/// 12 bytes and 20 for each term, unless it is that of the number before or behind: what stands side by side is
+/// deformed alike.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rows<T = DoubleDouble> {
     places: Vec<Place>,
@@ -119,6 +120,16 @@ impl<T: Scalar> Rows<T> {
     ///
     /// When there are 2³² terms in all, or as many variables.
     pub(super) fn set(&mut self, at: usize, row: &Row<T>) {
+        let mut beside = [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
+        let known = beside.find(|&beside| self.get(beside).is_some_and(|own| own == *row));
+        let known = known.and_then(|known| self.place(known));
+        let place = known.unwrap_or_else(|| self.add(row));
+        self.places.resize(self.places.len().max(at + 1), Place::NONE);
+        self.places[at] = place;
+    }
+
+    /// Adds a row behind the others.
+    fn add(&mut self, row: &Row<T>) -> Place {
         let mut end_of = |form: &LinearForm<T>| {
             self.variables.extend(form.terms().iter().map(|term| packed(term.0)));
             self.coefficients.extend(form.terms().iter().map(|term| term.1));
@@ -126,9 +137,7 @@ impl<T: Scalar> Rows<T> {
         };
         let start = end_of(&LinearForm::zero());
         let middle = end_of(&row.unknowns);
-        let place = Place { start, middle, end: end_of(&row.inputs) };
-        self.places.resize(self.places.len().max(at + 1), Place::NONE);
-        self.places[at] = place;
+        Place { start, middle, end: end_of(&row.inputs) }
     }
 }
 
@@ -180,6 +189,11 @@ mod tests {
         assert!(rows.has(0) && !rows.has(1) && !rows.has(3) && rows.row(1).is_zero());
         rows.set(2, &Row::input(4));
         rows.set(1, &Row::unknown(0));
+        let terms = rows.variables.len();
+        rows.set(3, &Row::input(4));
+        rows.set(0, &Row::unknown(0));
+        rows.set(6, &Row::unknown(0));
+        assert_eq!((rows.variables.len(), rows.row(3)), (terms + 1, Row::input(4)));
         assert_eq!((rows.row(2), rows.row(1)), (Row::input(4), Row::unknown(0)));
     }
 }

@@ -21,9 +21,9 @@ impl Outputs<'_> {
     ) {
         let branches = match &shapes[0] {
             Shape::Row(branches) => branches.clone(),
-            _ => vec![0],
+            _ => 0..1,
         };
-        if let (Shape::Row(_), Some(&last)) = (&shapes[0], branches.last()) {
+        if let (Shape::Row(_), Some(last)) = (&shapes[0], branches.clone().next_back()) {
             let force = forces[last].clone();
             let name = &connection.name;
             outputs.transmitted = force.map(|row| self.add(name, "transmitted-force", "N", &row));
@@ -42,7 +42,7 @@ impl Outputs<'_> {
             }
             return;
         }
-        for (at, (&branch, pieces)) in branches.iter().zip(&connection.pieces).enumerate() {
+        for (at, (branch, pieces)) in branches.zip(&connection.pieces).enumerate() {
             let in_row = connection.model.branches().get(at).filter(|_| branch != 0);
             let path = in_row.map_or(connection.name.clone(), |in_row| {
                 format!("{}.{}", connection.name, in_row.name)
@@ -52,7 +52,7 @@ impl Outputs<'_> {
                     let tree = in_row.map_or(&connection.model, |in_row| &in_row.tree);
                     let names =
                         tree.branches().iter().map(|branch| format!("{path}.{}", branch.name));
-                    children.iter().copied().zip(names).collect()
+                    children.clone().zip(names).collect()
                 }
                 _ => vec![(branch, path)],
             };
@@ -132,10 +132,10 @@ fn deformations(parts: &Parts<'_>, shapes: &[Shape]) -> Vec<Option<Row>> {
         found[at] = match shape {
             Shape::Leaf(primitive) => parts.motion.deformation.get(*primitive),
             Shape::Series(children) => {
-                let rows = children.iter().map(|&child| found[child].as_ref());
+                let rows = children.clone().map(|child| found[child].as_ref());
                 rows.collect::<Option<Vec<&Row>>>().map(|rows| total(&rows))
             }
-            Shape::Parallel(children) => children.iter().find_map(|&child| found[child].clone()),
+            Shape::Parallel(children) => children.clone().find_map(|child| found[child].clone()),
             Shape::Row(_) => None,
         };
     }
@@ -161,7 +161,7 @@ fn joint(parts: &Parts<'_>, shapes: &[Shape], shape: usize, end: usize) -> Optio
                 return Some(parts.expansion.primitives[*primitive].ends[end]);
             }
             Shape::Series(children) | Shape::Row(children) | Shape::Parallel(children) => {
-                *if end == 0 { children.first() } else { children.last() }?
+                if end == 0 { children.clone().next() } else { children.clone().next_back() }?
             }
         };
     }

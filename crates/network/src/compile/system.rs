@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use dashpot_dae::{
     Argument, Characteristic, LinearForm, Outputs, System, Term, Unknown, UnknownKind,
 };
-use nalgebra_sparse::{CooMatrix, CsrMatrix};
+use nalgebra_sparse::CsrMatrix;
 
 use super::{
     expand::Expansion,
@@ -63,8 +63,8 @@ pub(super) fn dimensionless(
 
     let count = places.drafts.len();
     let mut terms = Vec::new();
-    let mut jacobian = CooMatrix::new(count, count);
-    let mut input_matrix = CooMatrix::new(count, inputs.entries.len());
+    let mut jacobian = Matrix::new(count);
+    let mut input_matrix = Matrix::new(count);
     for (at, draft) in places.drafts.iter().enumerate() {
         let (own, given) = scaled(&places.rows.row(at), columns, input_columns);
         let factor = match draft.kind {
@@ -87,12 +87,8 @@ pub(super) fn dimensionless(
             });
             terms.push(Term { row: at, factor: finite(factor * lift)?, law, arguments });
         }
-        for &(column, value) in own.terms() {
-            jacobian.push(at, column, finite(factor * value)?);
-        }
-        for &(column, value) in given.terms() {
-            input_matrix.push(at, column, finite(factor * value)?);
-        }
+        jacobian.push(&own, factor)?;
+        input_matrix.push(&given, factor)?;
     }
     Ok(System {
         unknowns: places
@@ -105,8 +101,8 @@ pub(super) fn dimensionless(
                 unit: draft.unit,
             })
             .collect(),
-        jacobian: CsrMatrix::from(&jacobian),
-        input_matrix: CsrMatrix::from(&input_matrix),
+        jacobian: jacobian.of_columns(count),
+        input_matrix: input_matrix.of_columns(inputs.entries.len()),
         inputs: inputs.entries.clone(),
         waveforms: inputs
             .waveforms
@@ -119,6 +115,40 @@ pub(super) fn dimensionless(
         outputs: Outputs::new(),
         time_scale: time,
     })
+}
+
+/// A sparse matrix, row by row.
+struct Matrix {
+    ends: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    fn new(rows: usize) -> Self {
+        let mut ends = Vec::with_capacity(rows + 1);
+        ends.push(0);
+        Self { ends, columns: Vec::new(), values: Vec::new() }
+    }
+
+    /// Adds a row that is `factor` times a form.
+    fn push(&mut self, form: &LinearForm, factor: f64) -> Result<(), NetworkError> {
+        for &(column, value) in form.terms() {
+            self.columns.push(column);
+            self.values.push(finite(factor * value)?);
+        }
+        self.ends.push(self.columns.len());
+        Ok(())
+    }
+
+    fn of_columns(self, count: usize) -> CsrMatrix<f64> {
+        let Self { ends, mut columns, mut values } = self;
+        columns.shrink_to_fit();
+        values.shrink_to_fit();
+        // The variables of a form rise.
+        CsrMatrix::try_from_csr_data(ends.len() - 1, count, ends, columns, values)
+            .unwrap_or_else(|fault| panic!("{fault}"))
+    }
 }
 
 /// The law of a primitive that is not linear, or of the rate of its force, whose size is then known \[N\], and what it is a

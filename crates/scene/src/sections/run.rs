@@ -190,9 +190,10 @@ pub(crate) fn check_stops(
         let outputs = &assembly.system.outputs;
         let Some(output) = outputs.iter().find(|output| output.name == name) else {
             let owner = name.split('.').next().unwrap_or_default();
-            let mut family: Vec<&str> = outputs.iter().map(|output| output.name).collect();
+            let names = outputs.iter().map(|output| output.name.to_string());
+            let mut family: Vec<String> = names.collect();
             family.retain(|known| known.split('.').next() == Some(owner));
-            reading.unknown("output", name, stop.place, family.into_iter());
+            reading.unknown("output", name, stop.place, family.iter().map(String::as_str));
             return None;
         };
         let dimension = parse_dimension(output.unit).unwrap_or(Dimension::NUMBER);

@@ -46,7 +46,8 @@ impl std::fmt::Debug for Written {
 impl Dense for Written {
     fn signal(&self, system: &System, output: usize) -> Signal {
         let output = system.outputs.at(output);
-        let value = |time: f64| (self.signal)(output.name, time);
+        let name = output.name.to_string();
+        let value = |time: f64| (self.signal)(&name, time);
         Signal::new(panels(self.end, 8, value), Some(1e-9), 1e-13)
     }
 

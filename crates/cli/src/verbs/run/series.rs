@@ -69,7 +69,7 @@ fn curves_within(report: &RunReport, window: (f64, f64), count: usize) -> RunSer
     let outputs = &report.assembly.system.outputs;
     let values = |output: Option<usize>| {
         let name = output.and_then(|at| outputs.get(at)).map(|output| output.name);
-        let column = name.and_then(|name| table.columns.iter().find(|column| column.name == name));
+        let column = name.and_then(|name| table.columns.iter().find(|column| name == *column.name));
         column.map_or_else(Vec::new, |column| column.values.clone())
     };
     let connections = report.assembly.connections.iter();

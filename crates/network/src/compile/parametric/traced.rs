@@ -42,6 +42,13 @@ pub(super) struct Traced<'r> {
     node: Option<(&'r Recorder, usize)>,
 }
 
+impl PartialEq for Traced<'_> {
+    /// Whether both are made alike.
+    fn eq(&self, other: &Self) -> bool {
+        self.sample == other.sample && self.node.map(|own| own.1) == other.node.map(|own| own.1)
+    }
+}
+
 impl Recorder {
     /// The number of a network at this place among them.
     pub(super) fn number(&self, at: usize) -> Traced<'_> {

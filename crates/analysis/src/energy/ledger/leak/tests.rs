@@ -128,7 +128,7 @@ fn dashpot_that_is_off_is_named() {
     let mount = right.assembly.connection("mount").unwrap().primitives.clone();
     let mut parts = right.assembly.primitives[mount].iter();
     let dashpot = parts.find(|part| part.element.kind() == "dashpot").unwrap();
-    let name = right.assembly.system.outputs.at(dashpot.force).name.to_owned();
+    let name = right.assembly.system.outputs.at(dashpot.force).name.to_string();
     let report = doctored(right, &name, times_after(0.008, 1.05));
     let leak = found(&report);
     assert_eq!(leak.place, Place::Element("mount".to_owned()));
