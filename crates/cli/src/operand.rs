@@ -7,7 +7,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use dashpot_scene::{BareNumbers, ModelNote, NamedModel, Scene, read, read_models};
+use dashpot_scene::{
+    BareNumbers, Checked, Diagnostics, ModelNote, NamedModel, Scene, read, read_models, read_shared,
+};
 use dashpot_studies::{Context, Remark};
 
 use crate::{
@@ -104,7 +106,9 @@ pub(crate) fn read_scene(
     set: &[(String, String)],
     terminal: Terminal,
 ) -> Result<Scene, CliError> {
-    read_scene_of(&input::of(path)?, set, terminal)
+    let mut input = input::of(path)?;
+    let text = input.take_text()?;
+    shown(read_shared(&text, &input.options(set)), terminal)
 }
 
 /// The same of what was read already.
@@ -113,7 +117,11 @@ pub(crate) fn read_scene_of(
     set: &[(String, String)],
     terminal: Terminal,
 ) -> Result<Scene, CliError> {
-    let checked = read(input.text()?, &input.options(set)).map_err(StudyError::Scene)?;
+    shown(read(input.text()?, &input.options(set)), terminal)
+}
+
+fn shown(read: Result<Checked<Scene>, Diagnostics>, terminal: Terminal) -> Result<Scene, CliError> {
+    let checked = read.map_err(StudyError::Scene)?;
     terminal.diagnose(&checked.warnings);
     Ok(checked.value)
 }

@@ -110,7 +110,7 @@ pub enum SegmentPlace {
 #[derive(Debug, Clone)]
 pub struct PrimitiveOutputs {
     /// Path, for instance `padding.maxwell.spring`.
-    pub name: String,
+    pub name: Arc<str>,
     /// The law.
     pub element: Arc<dyn Element>,
     /// Force \[N\].

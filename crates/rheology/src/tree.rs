@@ -1,6 +1,7 @@
 //! Series–parallel trees.
 
 use std::{
+    borrow::Cow,
     convert::Infallible,
     ops::{Add, BitOr},
 };
@@ -25,7 +26,7 @@ pub const MOST_LEVELS: usize = 128;
 /// use dashpot_rheology::Tree;
 ///
 /// let pad = Tree::from("spring") + (Tree::from("spring") | "dashpot");
-/// let names: Vec<&str> = pad.branches().iter().map(|branch| branch.name.as_str()).collect();
+/// let names: Vec<&str> = pad.branches().iter().map(|branch| &*branch.name).collect();
 /// assert_eq!(names, ["1", "2"]);
 /// assert_eq!(pad.branches()[1].tree.branches()[1].tree, Tree::Part("dashpot"));
 /// ```
@@ -43,14 +44,14 @@ pub enum Tree<P> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch<P> {
     /// Name of the branch; unique among its siblings. Paths such as `padding.kelvin.spring` are made of these.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// What the branch is.
     pub tree: Tree<P>,
 }
 
 impl<P> Branch<P> {
     /// A branch of the given name.
-    pub fn new(name: impl Into<String>, tree: Tree<P>) -> Self {
+    pub fn new(name: impl Into<Cow<'static, str>>, tree: Tree<P>) -> Self {
         Self { name: name.into(), tree }
     }
 }
@@ -146,7 +147,8 @@ impl<P> Tree<P> {
         if let Self::Part(own) = self {
             return part(own);
         }
-        let branch = |own: &Branch<P>| Ok(Branch::new(&*own.name, own.tree.try_map_with(part)?));
+        let branch =
+            |own: &Branch<P>| Ok(Branch::new(own.name.clone(), own.tree.try_map_with(part)?));
         let branches = self.branches().iter().map(branch).collect::<Result<Vec<_>, E>>()?;
         Ok(if self.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) })
     }

@@ -40,7 +40,9 @@ pub use quantities::bare::{BareNumber, BareNumbers};
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
 pub use quantities::words::with_units;
-pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, text_of_bytes};
+pub use scene::{
+    ReadOptions, RunSettings, Scene, read, read_bytes, read_network, read_shared, text_of_bytes,
+};
 pub use schema::schema;
 pub use sections::{WISHING, Wish, parse_limits, wishes};
 pub use shipped::{Shipped, reference, references, template, templates};

@@ -182,8 +182,24 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    let of = |size| checked(options.bare, |faults| read_scene(text, options, size, faults));
-    let large = (text.len() > LARGE).then(|| of(TextSize::Large)).and_then(Result::ok);
+    read_of(text, options)
+}
+
+/// Reads a scene from a text that it keeps, and shares.
+///
+/// # Errors
+///
+/// As those of [`read`].
+pub fn read_shared(
+    text: &Arc<str>,
+    options: &ReadOptions<'_>,
+) -> Result<Checked<Scene>, Diagnostics> {
+    read_of(text.clone(), options)
+}
+
+fn read_of<T: Text>(text: T, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
+    let of = |size| checked(options.bare, |faults| read_scene(text.clone(), options, size, faults));
+    let large = (text.as_ref().len() > LARGE).then(|| of(TextSize::Large)).and_then(Result::ok);
     let mut read = large.map_or_else(|| of(TextSize::Usual), Ok)?;
     read.value.warnings.clone_from(&read.warnings.list);
     Ok(read)
@@ -256,22 +272,32 @@ pub(crate) fn checked<T>(
     }
 }
 
+/// A text that is copied to be kept, or shared.
+pub(crate) trait Text: AsRef<str> + Into<Arc<str>> + Clone {}
+
+impl<T: AsRef<str> + Into<Arc<str>> + Clone> Text for T {}
+
 /// The documents of a text.
 pub(crate) fn load(
-    text: &str,
+    text: impl Text,
     options: &ReadOptions<'_>,
     faults: &Faults,
 ) -> Option<(Library, Arc<Source>)> {
     let name = options.file.unwrap_or(UNNAMED);
-    let (settled, set) = Settled::in_text(text, options.set);
-    let shown = if settled == text { name.to_owned() } else { format!("{name}, as set") };
-    let source = Arc::new(Source::new(shown, &*settled));
-    if let Some(fault) = table_for_scene(&settled, name) {
-        faults.error(Place::new(faults.add_source(source), &(0..0)), fault);
+    let (settled, set) = Settled::in_text(text.as_ref(), options.set);
+    let settled = (settled != text.as_ref()).then(|| settled.into_owned());
+    let source = Arc::new(match settled {
+        Some(settled) => Source::new(format!("{name}, as set"), settled),
+        None => Source::new(name, text),
+    });
+    let settled = &source.text;
+    if let Some(fault) = table_for_scene(settled, name) {
+        faults.error(Place::new(faults.add_source(Arc::clone(&source)), &(0..0)), fault);
         return None;
     }
     let root = parse(&source, faults)?;
-    Some((library_of((root, &settled), set, options, faults), source))
+    let library = library_of((root, settled), set, options, faults);
+    Some((library, source))
 }
 
 /// The documents of a text that is parsed, and what is set besides.
@@ -396,7 +422,7 @@ enum TextSize {
 }
 
 fn read_scene(
-    text: &str,
+    text: impl Text,
     options: &ReadOptions<'_>,
     size: TextSize,
     faults: &Faults,

@@ -1,6 +1,6 @@
 //! What surrounds a study: files, and whoever listens.
 
-use std::{borrow::Cow, ops::ControlFlow, path::Path};
+use std::{borrow::Cow, ops::ControlFlow, path::Path, sync::Arc};
 
 use dashpot_scene::{
     BareNumbers, Diagnostics, ModelNote, ReadOptions, Scene, read, references, table_text,
@@ -120,6 +120,17 @@ impl Input {
             return Err(StudyError::Unreadable { name, reason, similar: None });
         }
         text_of_bytes(&self.bytes, Some(&self.file)).map_err(StudyError::Scene)
+    }
+
+    /// The same, of which nothing is kept here.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`text`](Self::text).
+    pub fn take_text(&mut self) -> Result<Arc<str>, StudyError> {
+        let text: Arc<str> = self.text()?.into();
+        self.bytes = Vec::new();
+        Ok(text)
     }
 
     /// The text of a file of numbers, whichever its encoding is.

@@ -24,7 +24,7 @@ pub(crate) fn two_maxwell(pad: Padding) -> Result<TwoMaxwell, AppendixAError> {
 
 /// The model of these elements.
 pub(crate) fn in_parallel(two: TwoMaxwell) -> Model {
-    let branch = |name: &str, SpringDashpot { spring, dashpot }: SpringDashpot| {
+    let branch = |name: &'static str, SpringDashpot { spring, dashpot }: SpringDashpot| {
         let parts = [part(Spring { stiffness: spring }), part(Dashpot { damping: dashpot })];
         Branch::new(name, Tree::series(parts))
     };

@@ -28,7 +28,7 @@ impl Trial<'_> {
     /// How well the instant of a switching is known: an error of what is watched, over its slope.
     fn time_error(&self, switch: &Switch) -> f64 {
         let primitives = &self.report.assembly.primitives;
-        let Some(part) = primitives.iter().find(|part| part.name == switch.name) else {
+        let Some(part) = primitives.iter().find(|part| *part.name == *switch.name) else {
             return 0.0;
         };
         let watched = match switch.what {
@@ -158,8 +158,7 @@ impl Trial<'_> {
         let ledger = ledger(&self.solution, time);
         let assembly = &self.report.assembly;
         let own = assembly.connection(element).expect("an element").primitives.clone();
-        let names: Vec<&str> =
-            assembly.primitives[own].iter().map(|own| own.name.as_str()).collect();
+        let names: Vec<&str> = assembly.primitives[own].iter().map(|own| &*own.name).collect();
         let own = ledger.dissipated.iter().filter(|entry| names.contains(&entry.0.as_str()));
         own.map(|entry| entry.1).sum()
     }

@@ -67,8 +67,8 @@ fn momentum(report: &RunReport, threshold: f64) -> Option<String> {
                 for primitive in &assembly.primitives[connection.primitives.clone()] {
                     let switches = report.trajectory.switches.iter();
                     // Speeds are reported from after the impacts at the start.
-                    for own in
-                        switches.filter(|switch| switch.time > 0.0 && switch.name == primitive.name)
+                    for own in switches
+                        .filter(|switch| switch.time > 0.0 && *switch.name == *primitive.name)
                     {
                         push(sign * own.impulse, own.impulse);
                     }

@@ -1,13 +1,13 @@
 //! What a chain costs from its text to its report.
 
-use std::{fmt::Write as _, fs, process::Command};
+use std::{fmt::Write as _, fs, process::Command, sync::Arc};
 
 use allocation_counter::measure;
 use dashpot::{
     analysis::{Solve, SolveSettings, solve_assembly},
     dae::Silent,
     plot::{Chart, Scale, Series},
-    scene::{ReadOptions, read},
+    scene::{ReadOptions, read, read_shared},
 };
 
 use super::{OMEGA, end_velocity, struck_velocity, uniform_chain, until};
@@ -75,9 +75,9 @@ fn spent() -> f64 {
 fn one() {
     let Ok(count) = std::env::var(SIZE).unwrap_or_default().parse::<usize>() else { return };
     let masses = count as f64;
-    let text = text(count);
+    let text: Arc<str> = text(count).into();
     let begin = spent();
-    let scene = read(&text, &ReadOptions::default()).unwrap().value;
+    let scene = read_shared(&text, &ReadOptions::default()).unwrap().value;
     let parsed = spent() - begin;
     let peak_of_text = memory("VmHWM:") / masses;
     drop(text);

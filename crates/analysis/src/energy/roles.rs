@@ -86,6 +86,6 @@ pub(crate) fn lost_in_impacts(
         return 0.0;
     }
     let switches = trajectory.switches.iter();
-    let own = switches.filter(|switch| switch.impulse > 0.0 && switch.name == primitive.name);
+    let own = switches.filter(|switch| switch.impulse > 0.0 && *switch.name == *primitive.name);
     own.filter(|own| window.0 <= own.time && own.time <= window.1).map(|own| own.lost).sum()
 }

@@ -102,7 +102,7 @@ impl Instants {
             if own.time <= 0.0 {
                 return Some(0.0);
             }
-            let part = assembly.primitives.iter().find(|part| part.name == own.name)?;
+            let part = assembly.primitives.iter().find(|part| *part.name == *own.name)?;
             let watched = [Some(part.force), Some(part.deformation), part.rate];
             let shifts = watched.into_iter().flatten().filter_map(|at| shift(at, own.time));
             rounded(shifts.reduce(f64::max), own.time)

@@ -97,7 +97,7 @@ pub(crate) fn left_for_good<'a>(
     let left = assembly.connections.iter().enumerate().filter_map(|(at, connection)| {
         let node = connection.between.map(NodeId::index).into_iter().find(is_alone)?;
         let own = parts(assembly, connection).iter().filter(|part| is_contact(part));
-        let mut switched = own.filter_map(|own| last.get(own.name.as_str()));
+        let mut switched = own.filter_map(|own| last.get(&*own.name));
         let opened = switched.next_back().filter(|switch| switch.phase == 0)?;
         let pad = assembly.pad_behind(at);
         let element = pad.map_or(connection, |pad| &assembly.connections[pad.element]);
@@ -122,7 +122,7 @@ pub(crate) fn meetings_after(
         .flat_map(|at| parts(assembly, &assembly.connections[at]))
         .collect();
     let opens = |own: &Switch, index: usize, memory: f64| {
-        let part = parts.iter().find(|part| part.name == own.name);
+        let part = parts.iter().find(|part| *part.name == *own.name);
         part.and_then(|part| part.element.phases())
             .map(|phases| matches!(phases.law(Phase { index, memory }), PhaseLaw::Open))
     };

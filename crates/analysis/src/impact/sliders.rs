@@ -117,7 +117,7 @@ pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<S
         if peak.value.abs() > capacity * (1.0 + MOST) {
             let largest = *largest.get_or_insert_with(|| largest_force(solution));
             if peak.value.abs() > capacity + MOST * largest {
-                let (part, force) = (own.name.clone(), peak.value.abs());
+                let (part, force) = (own.name.to_string(), peak.value.abs());
                 return Some(SliderFault::Overloaded { part, time: peak.time, force, capacity });
             }
         }
@@ -128,7 +128,7 @@ pub(crate) fn slider_fault(solution: &Solution<'_>, energy: &Ledger) -> Option<S
         times.into_iter().find_map(|time| {
             let energy_given = -force.value(time) * (place.value(time) - place.left_value(time));
             (energy_given > MOST * energy.turned_over).then(|| SliderFault::JumpsBack {
-                part: own.name.clone(),
+                part: own.name.to_string(),
                 time,
                 energy: energy_given,
             })
@@ -244,7 +244,7 @@ mod tests {
         let own = assembly
             .primitives
             .iter_mut()
-            .find(|primitive| primitive.name == "guard.friction")
+            .find(|primitive| &*primitive.name == "guard.friction")
             .unwrap();
         own.element = Arc::new(Friction { force: 1.5, ratio: 1.0 });
         report.assembly = Arc::new(assembly);

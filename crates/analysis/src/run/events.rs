@@ -64,7 +64,7 @@ fn switchings(assembly: &Assembly, trajectory: &Trajectory) -> Vec<(f64, Event)>
     let mut found = Vec::with_capacity(trajectory.switches.len());
     for switch in &trajectory.switches {
         let again = met.contains(&switch.part);
-        let at = assembly.primitives.iter().position(|primitive| primitive.name == switch.name);
+        let at = assembly.primitives.iter().position(|primitive| *primitive.name == *switch.name);
         let what = match at.filter(|&at| is_contact(&assembly.primitives[at])) {
             Some(at) => {
                 if !again {

@@ -271,7 +271,8 @@ impl Idle {
     ) -> bool {
         let Some(force) = element.force else { return false };
         let own = &solution.assembly().primitives[element.primitives.clone()];
-        let has = |paths: &[String]| own.iter().any(|own| paths.contains(&own.name));
+        let has =
+            |paths: &[String]| own.iter().any(|own| paths.iter().any(|path| **path == *own.name));
         let holds = has(&self.slider.held_by);
         if !holds && !has(&self.slider.sliders) {
             return false;
@@ -298,7 +299,8 @@ impl Idle {
 
     /// The force \[N\] that those of these parts which are idle are taken to have.
     fn taken(&self, solution: &Solution<'_>, parts: &[PrimitiveOutputs]) -> f64 {
-        let idle = parts.iter().filter(|part| self.slider.sliders.contains(&part.name));
+        let idle =
+            parts.iter().filter(|part| self.slider.sliders.iter().any(|own| **own == *part.name));
         let idle = idle.filter(|idle| solution.keeps(idle.force));
         idle.map(|idle| solution.signal(idle.force).value(0.5 * (self.from + self.to))).sum()
     }

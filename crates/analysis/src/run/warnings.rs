@@ -428,7 +428,7 @@ impl Beyond {
         let size = if first.is_finite() { last - first } else { last };
         let noise = deformation.error.unwrap_or(0.0).max(NEXT_TO_NOTHING * size);
         let (deepest, longest) = (deformation.maximum(run), deformation.minimum(run));
-        let name = || part.name.clone();
+        let name = || part.name.to_string();
         let pressed = (deepest.value > last + noise).then(|| Self {
             name: name(),
             is_pressed: true,

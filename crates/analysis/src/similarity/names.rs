@@ -81,7 +81,7 @@ pub(super) fn with_names(model: &Model, like: &Model) -> Model {
         return model.clone();
     }
     let named = |(own, other): (&Branch<_>, &Branch<_>)| {
-        Branch::new(other.name.as_str(), with_names(&own.tree, &other.tree))
+        Branch::new(other.name.clone(), with_names(&own.tree, &other.tree))
     };
     let branches = own.iter().zip(other).map(named).collect();
     if model.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) }

@@ -145,7 +145,7 @@ impl Observed {
             let force = (own.force, (2.0 * damping).sqrt().recip());
             let reading = |own| Reading { sum: vec![own], order: 0 };
             let readings = rate.into_iter().chain([force]).map(reading).collect();
-            Some(Self { name: own.name.clone(), readings })
+            Some(Self { name: own.name.to_string(), readings })
         });
         root.collect()
     }

@@ -309,7 +309,7 @@ fn reaches(run: &RunReport) -> Vec<(String, DepthOf, f64)> {
             let (_, last) = own.element.range()?;
             let of = if own.element.ends_at_equator() { DepthOf::Radius } else { DepthOf::Law };
             (last > 0.0 && last.is_finite())
-                .then(|| (own.name.clone(), of, part(own.deformation, last)))
+                .then(|| (own.name.to_string(), of, part(own.deformation, last)))
         });
         all.extend(pad.into_iter().chain(laws));
     }

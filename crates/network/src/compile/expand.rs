@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub(crate) struct Primitive {
     /// Its path, for instance `padding.maxwell.spring`.
-    pub(crate) name: String,
+    pub(crate) name: Arc<str>,
     pub(crate) element: Arc<dyn Element>,
     /// The element as it stands in the model; `element` may be that of a phase.
     pub(crate) origin: Arc<dyn Element>,
@@ -222,7 +222,7 @@ impl Expansion {
             let name = if is_whole { format!("{path}.{}", element.kind()) } else { path };
             let law = element.law();
             self.primitives.push(Primitive {
-                name,
+                name: name.into(),
                 element: Arc::clone(element),
                 origin: Arc::clone(element),
                 is_link: law == Law::Rigid,

@@ -162,7 +162,7 @@ impl<'s> Outputs<'s> {
                 _ => summed(shapes, &rate),
             };
             // An element whose name says it all is its only part.
-            let own = self.primitives[first..].iter().find(|own| own.name == *name);
+            let own = self.primitives[first..].iter().find(|own| *own.name == **name);
             let own = own.map(|own| (own.force, own.deformation));
             let force = match own {
                 Some((force, _)) => Some(force),
@@ -218,7 +218,7 @@ impl<'s> Outputs<'s> {
             Law::Rigid => constraint_forces
                 .get(&at)
                 .cloned()
-                .ok_or_else(|| NetworkError::UndeterminedForce { element: name.clone() })?,
+                .ok_or_else(|| NetworkError::UndeterminedForce { element: name.to_string() })?,
             _ => parts.motion.force.row(at),
         };
         let force = own.share.map_or_else(|| force.clone(), |share| force.times(share.part));
@@ -238,10 +238,10 @@ impl<'s> Outputs<'s> {
             parts.motion.rate.get(at)
         };
         if switches && primitive.needs_rate() && rate.is_none() {
-            return Err(NetworkError::UndeterminedRate { element: name.clone() });
+            return Err(NetworkError::UndeterminedRate { element: name.to_string() });
         }
         let outputs = PrimitiveOutputs {
-            name: name.clone(),
+            name: Arc::clone(name),
             element: Arc::clone(&own.origin),
             force: self.add(name, "force", "N", &force),
             deformation: self.add(name, "deformation", "m", &turned(deformation(parts, at))),

@@ -21,7 +21,7 @@ fn relaxance(model: &Model, s: f64) -> f64 {
 }
 
 fn names(model: &Model) -> Vec<&str> {
-    model.branches().iter().map(|branch| branch.name.as_str()).collect()
+    model.branches().iter().map(|branch| &*branch.name).collect()
 }
 
 /// Points over all times of a model, and beyond.

@@ -87,7 +87,7 @@ impl Circuit {
                 Law::Nonlinear { .. } | Law::Phased if ends[0] == ends[1] => continue,
                 Law::Nonlinear { .. } | Law::Phased => {
                     return Err(DrivingPointError::NotLinear {
-                        element: primitive.name.clone(),
+                        element: primitive.name.to_string(),
                         kind: primitive.element.kind(),
                     });
                 }

@@ -18,7 +18,7 @@ pub(super) fn slice(layer: &Model, count: f64) -> Model {
         |element| Tree::Part(slice_of(element, count)),
         |tree, parts| {
             let named = tree.branches().iter().zip(parts);
-            let branches = named.map(|(own, tree)| Branch::new(&own.name, tree)).collect();
+            let branches = named.map(|(own, tree)| Branch::new(own.name.clone(), tree)).collect();
             if tree.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) }
         },
     )

@@ -184,7 +184,7 @@ fn masses_stand_between_the_branches_of_a_series() {
     assert_eq!(network.connections()[0].thickness, Some(0.03));
     resolve(&mut network).unwrap();
     let pad = &network.connections()[0];
-    let names: Vec<&str> = pad.model.branches().iter().map(|branch| branch.name.as_str()).collect();
+    let names: Vec<&str> = pad.model.branches().iter().map(|branch| &*branch.name).collect();
     assert_eq!(names, ["front", "1-2", "2-3", "3-4", "4-5", "back"]);
     let nodes: Vec<&Node> = pad.through.iter().map(|id| network.node(*id)).collect();
     let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();

@@ -152,7 +152,7 @@ fn laws(model: &Model) -> Vec<(String, Law)> {
         match tree {
             Tree::Part(element) => laws.push((name, element.law())),
             tree => pending.extend(
-                tree.branches().iter().rev().map(|branch| (branch.name.clone(), &branch.tree)),
+                tree.branches().iter().rev().map(|branch| (branch.name.to_string(), &branch.tree)),
             ),
         }
     }

@@ -58,7 +58,7 @@ fn layers_stand_in_series_each_with_its_own_size() {
         "series = [{ material = \"foam\", thickness = \"1 cm\", area = \"80 cm^2\" }, \
          { material = \"foam\", thickness = \"3 cm\", area = \"50 cm^2\", name = \"core\" }]",
     );
-    let names: Vec<&str> = layers.branches().iter().map(|branch| branch.name.as_str()).collect();
+    let names: Vec<&str> = layers.branches().iter().map(|branch| &*branch.name).collect();
     assert_eq!(names, ["foam", "core"]);
     let [one, other] = [0.008 / 0.01, 0.005 / 0.03];
     same(&constants(&layers), &[2e6 * one, 5e3 * one, 2e6 * other, 5e3 * other]);

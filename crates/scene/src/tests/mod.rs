@@ -49,7 +49,7 @@ fn shape(model: &Model) -> Vec<String> {
         };
         lines.push(format!("{depth} {name} {word}"));
         let branches = tree.branches().iter().rev();
-        open.extend(branches.map(|branch| (depth + 1, branch.name.as_str(), &branch.tree)));
+        open.extend(branches.map(|branch| (depth + 1, &*branch.name, &branch.tree)));
     }
     lines
 }

@@ -13,7 +13,7 @@ fn branches_are_named_by_their_words_and_numbered() {
         )
     );
     let pad = super::scene(&text).network.connections()[0].model.clone();
-    let names = pad.branches().iter().map(|branch| branch.name.as_str()).collect::<Vec<_>>();
+    let names = pad.branches().iter().map(|branch| &*branch.name).collect::<Vec<_>>();
     assert_eq!(names, ["spring", "spring-2", "kelvin", "foam", "spring-3", "spring-4"]);
 }
 

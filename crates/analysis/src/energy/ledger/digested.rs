@@ -34,11 +34,11 @@ pub(super) fn ledger(assembly: &Assembly, digest: &Digest, end: f64) -> Ledger {
             let [first, last] = ends.map(|deformation| primitive.element.stored(deformation));
             start += first;
             gained = last - first;
-            stored.push((primitive.name.clone(), last));
+            stored.push((primitive.name.to_string(), last));
         }
         if own.dissipates {
             let work = if does_work(primitive) { next().total } else { 0.0 };
-            dissipated.push((primitive.name.clone(), work - gained));
+            dissipated.push((primitive.name.to_string(), work - gained));
         }
     }
     let mut most = 0.0;

@@ -168,7 +168,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
             let at_end = roles::stored(solution.run(), primitive, time, last);
             start += at_start;
             gained = at_end - at_start;
-            stored.push((primitive.name.clone(), at_end));
+            stored.push((primitive.name.to_string(), at_end));
             let slope = |y: f64| primitive.element.tangent(y, 0.0).stiffness.abs();
             let stiffness = slope(last);
             let bound = |error: f64| stiffness * error * (last.abs() + error);
@@ -176,7 +176,7 @@ pub fn ledger(solution: &Solution<'_>, time: f64) -> Ledger {
         }
         if own.dissipates {
             let energy = dissipation(solution, primitive, window, &mut balance) - gained;
-            dissipated.push((primitive.name.clone(), energy));
+            dissipated.push((primitive.name.to_string(), energy));
         }
     }
     let mut work_in: Vec<(String, f64)> = assembly

@@ -27,7 +27,7 @@ pub fn touching(solution: &Solution<'_>) -> Vec<(f64, f64)> {
     let assembly = solution.assembly();
     let parts = switching.parts();
     let counted = parts.iter().enumerate().filter_map(|(number, part)| {
-        let at = assembly.primitives.iter().position(|primitive| primitive.name == part.name)?;
+        let at = assembly.primitives.iter().position(|primitive| *primitive.name == *part.name)?;
         let phases = assembly.primitives[at].element.phases()?;
         let opens = (0..part.phases.len()).any(|index| is_open(phases, index, 0.0));
         // Where an effect has put a contact before a padding, that one tells.

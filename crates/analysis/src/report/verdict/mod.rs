@@ -384,7 +384,7 @@ impl<'r> Found<'r> {
         let mut opened = self.0.trajectory.switches.iter().filter(|switch| switch.what == "open");
         let first = opened.next()?;
         let times = 1 + opened.filter(|opened| opened.name == first.name).count();
-        let at = assembly.primitives.iter().position(|primitive| primitive.name == first.name)?;
+        let at = assembly.primitives.iter().position(|primitive| *primitive.name == *first.name)?;
         let behind = assembly.owner(at).and_then(|own| assembly.pad_behind(own));
         let name = behind
             .map_or(assembly.primitives[at].place(), |pad| &assembly.connections[pad.element].name);

@@ -105,7 +105,7 @@ fn redrawn(model: &Model, own: &FourParameterPadding) -> Model {
             let (in_row, beside): (Vec<Model>, Vec<Model>) = parts.into_iter().unzip();
             let named = |parts: Vec<Model>| -> Vec<Branch<_>> {
                 let pairs = node.branches().iter().zip(parts);
-                pairs.map(|(own, tree)| Branch::new(own.name.as_str(), tree)).collect()
+                pairs.map(|(own, tree)| Branch::new(own.name.clone(), tree)).collect()
             };
             if node.is_series() {
                 (Tree::Series(named(in_row)), Tree::Series(named(beside)))

@@ -119,7 +119,7 @@ fn sorted_model(model: &Model) -> Model {
             (key, Tree::Part(Arc::clone(element)))
         },
         |node, parts: Vec<(Key, Model)>| {
-            let names = node.branches().iter().map(|branch| branch.name.as_str());
+            let names = node.branches().iter().map(|branch| branch.name.clone());
             let mut all: Vec<(Key, Branch<_>)> = names
                 .zip(parts)
                 .map(|(name, (key, tree))| (key, Branch::new(name, tree)))

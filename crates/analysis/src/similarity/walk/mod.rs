@@ -199,7 +199,7 @@ pub(super) fn walk_model(
         |node, parts: Vec<Result<Model, InvalidParameter>>| {
             let parts = parts.into_iter().collect::<Result<Vec<Model>, InvalidParameter>>()?;
             let branches = node.branches().iter().zip(parts);
-            let branches = branches.map(|(own, tree)| Branch::new(own.name.as_str(), tree));
+            let branches = branches.map(|(own, tree)| Branch::new(own.name.clone(), tree));
             let branches = branches.collect();
             Ok(if node.is_series() { Tree::Series(branches) } else { Tree::Parallel(branches) })
         },
@@ -213,7 +213,7 @@ fn tell_shape(name: &str, model: &Model, visit: &mut dyn Visit) {
         if tree.branches().is_empty() {
             continue;
         }
-        let names: Vec<&str> = tree.branches().iter().map(|branch| branch.name.as_str()).collect();
+        let names: Vec<&str> = tree.branches().iter().map(|branch| &*branch.name).collect();
         let word = if tree.is_series() { "series" } else { "parallel" };
         visit.word(&path, &format!("{word} of {}", names.join(", ")));
         let branches = tree.branches().iter();

@@ -122,7 +122,7 @@ fn parts(scene: &Scene) -> Table {
         };
         let phases = primitive.element.phases().map(|phase| phase.names().join(" / "));
         let words: Vec<String> = phases.into_iter().chain(extent(primitive)).collect();
-        vec![own, primitive.name.clone(), words.join(", ")]
+        vec![own, primitive.name.to_string(), words.join(", ")]
     });
     rows("Parts that take part", described)
 }

@@ -394,7 +394,7 @@ impl PhasedNetwork {
         after: &[Phase],
         impacts: &[super::impacts::Impact],
     ) -> Vec<Switch> {
-        let name = |part: usize| self.expansion.primitives[self.parts[part]].name.clone();
+        let name = |part: usize| self.expansion.primitives[self.parts[part]].name.to_string();
         let mut switches = Vec::new();
         for (part, (old, new)) in before.iter().zip(after).enumerate() {
             let impact = impacts.iter().find(|impact| impact.part == part);

@@ -48,7 +48,7 @@ impl PhasedNetwork {
         let idle = pushing.into_iter().filter(|&part| is_held(&mut all, part));
         idle.map(|part| {
             let holds = |&other: &usize| !is_held(&mut joined(Some(other)), part);
-            let path = |&own: &usize| self.expansion.primitives[self.parts[own]].name.clone();
+            let path = |&own: &usize| self.expansion.primitives[self.parts[own]].name.to_string();
             let held_by = held.iter().filter(|other| holds(other)).map(path).collect();
             IdleSlider { sliders: self.sharing(self.parts[part]), held_by }
         })
@@ -61,6 +61,6 @@ impl PhasedNetwork {
         let own = all.filter(|(at, own)| {
             *at == primitive || own.share.is_some_and(|share| share.of == primitive)
         });
-        own.map(|(_, own)| own.name.clone()).collect()
+        own.map(|(_, own)| own.name.to_string()).collect()
     }
 }

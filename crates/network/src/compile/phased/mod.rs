@@ -121,7 +121,7 @@ pub(super) fn compile(
         node.fall = start::time_of_fall(&phased.network, &phased.expansion, body);
     }
     compiled.warnings.extend(unseen.first().map(|&(time, part)| {
-        let element = phased.expansion.primitives[part].name.clone();
+        let element = phased.expansion.primitives[part].name.to_string();
         NetworkWarning::WithinJump { element, time }
     }));
     phased.join_bodies(&mut compiled);
@@ -143,7 +143,7 @@ impl PhasedNetwork {
     /// The parts that switch.
     pub fn parts(&self) -> Vec<PhasedPart> {
         let part = |&at: &usize| PhasedPart {
-            name: self.expansion.primitives[at].name.clone(),
+            name: self.expansion.primitives[at].name.to_string(),
             phases: self.phases_of(at).map_or(&[][..], Phases::names),
         };
         self.parts.iter().map(part).collect()
@@ -161,7 +161,7 @@ impl PhasedNetwork {
 
     /// Number of the part of this path.
     pub fn part_named(&self, name: &str) -> Option<usize> {
-        self.parts.iter().position(|&at| self.expansion.primitives[at].name == name)
+        self.parts.iter().position(|&at| *self.expansion.primitives[at].name == *name)
     }
 
     /// Whether what switches has a linear law in each of its phases.
@@ -240,7 +240,7 @@ impl PhasedNetwork {
                 };
                 let Some(output) = output else { continue };
                 guards.push(Guard {
-                    name: name.clone(),
+                    name: name.to_string(),
                     output,
                     level: exit.level,
                     direction: if exit.rising { Direction::Rising } else { Direction::Falling },

@@ -86,7 +86,7 @@ fn static_friction(
             _ => return None,
         };
         let invalid = InvalidParameter::new("static-to-kinetic", range, ratio(at));
-        let (element, path) = primitive.name.split_once('.').unwrap_or((&primitive.name, ""));
+        let (element, path) = primitive.name.split_once('.').unwrap_or((&*primitive.name, ""));
         let path = path.split('.').map(str::to_owned).collect();
         let subject = Subject::Element { name: element.to_owned(), path };
         Some(NetworkError::Invalid { subject, invalid })
@@ -129,7 +129,7 @@ fn slip(
                 match moving(own, *phase, rate.unwrap_or(0.0)) {
                     Some(index) if rate != Some(0.0) => phase.index = index,
                     _ => {
-                        let element = primitive.name.clone();
+                        let element = primitive.name.to_string();
                         errors.push(NetworkError::UndeterminedForce { element });
                     }
                 }

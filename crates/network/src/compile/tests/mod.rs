@@ -56,7 +56,7 @@ fn the_reference_has_six_states_and_no_algebraic_unknown() {
     assert_eq!((assembly.system.states(), assembly.system.algebraic()), (6, 0));
     assert!(assembly.warnings.is_empty());
     assert_eq!(assembly.primitives.len(), 6);
-    assert_eq!(assembly.primitives[0].name, "padding.1");
+    assert_eq!(&*assembly.primitives[0].name, "padding.1");
     assert!(at_start(&assembly, "padding.force").abs() < 1e-12);
     assert!((at_start(&assembly, "head.velocity") - 10.0).abs() < 1e-14);
     assert!((at_start(&assembly, "padding.rate") - 10.0).abs() < 1e-14);

@@ -271,7 +271,7 @@ fn owners(assembly: &Assembly) -> HashMap<&str, usize> {
     let elements = assembly.connections.iter().enumerate();
     let primitives = elements.flat_map(|(at, own)| {
         let primitives = assembly.primitives.get(own.primitives.clone()).unwrap_or_default();
-        primitives.iter().map(move |primitive| (primitive.name.as_str(), at))
+        primitives.iter().map(move |primitive| (&*primitive.name, at))
     });
     primitives.collect()
 }
