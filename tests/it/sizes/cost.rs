@@ -30,7 +30,7 @@ const PLACE: (&str, &str) = ("<!-- measured: sizes -->", "<!-- end -->");
 /// Most memory \[kB\] that solving may take for each mass, beyond the network and its equations.
 const MOST_MEMORY: f64 = 2.0;
 /// Most memory \[kB\] that the whole process may hold for each mass of the longest chain.
-const MOST_IN_ALL: f64 = 6.0;
+const MOST_IN_ALL: f64 = 4.2;
 
 /// The scene of the struck chain.
 fn text(count: usize) -> String {
