@@ -182,7 +182,7 @@ impl std::fmt::Debug for ReadOptions<'_> {
 ///
 /// All faults of the text, each with its place.
 pub fn read(text: &str, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
-    read_of(text, options)
+    read_of(&text, options)
 }
 
 /// Reads a scene from a text that it keeps, and shares.
@@ -194,10 +194,10 @@ pub fn read_shared(
     text: &Arc<str>,
     options: &ReadOptions<'_>,
 ) -> Result<Checked<Scene>, Diagnostics> {
-    read_of(text.clone(), options)
+    read_of(text, options)
 }
 
-fn read_of<T: Text>(text: T, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
+fn read_of<T: Text>(text: &T, options: &ReadOptions<'_>) -> Result<Checked<Scene>, Diagnostics> {
     let of = |size| checked(options.bare, |faults| read_scene(text.clone(), options, size, faults));
     let large = (text.as_ref().len() > LARGE).then(|| of(TextSize::Large)).and_then(Result::ok);
     let mut read = large.map_or_else(|| of(TextSize::Usual), Ok)?;

@@ -109,7 +109,7 @@ fn connections(network: &Network, expansion: &Expansion, errors: &mut Vec<Networ
             errors.push(NetworkError::TooDeep { element: connection.name.clone() });
             continue;
         }
-        for part in shape.iter() {
+        for part in shape {
             match part {
                 super::expand::Shape::Leaf(at) => {
                     let primitive = &expansion.primitives[*at];

@@ -19,10 +19,12 @@ mod round_trip;
 mod settings;
 mod warnings;
 
+use std::sync::Arc;
+
 use dashpot_network::{Model, Network};
 use dashpot_rheology::Tree;
 
-use crate::{Checked, Diagnostics, ReadOptions, Scene, read};
+use crate::{Checked, Diagnostics, ReadOptions, Scene, read, read_shared};
 
 /// Reads `text` as the file `scene.toml`.
 fn read_text(text: &str) -> Result<Checked<Scene>, Diagnostics> {
@@ -83,4 +85,15 @@ fn on_model(law: &str) -> String {
 
 fn model(law: &str) -> Model {
     scene(&on_model(law)).network.connections()[0].model.clone()
+}
+
+#[test]
+fn a_text_is_shared_unless_something_is_set_in_it() {
+    let text: Arc<str> = crate::reference().into();
+    let own = read_shared(&text, &ReadOptions::default()).unwrap().value;
+    assert!(Arc::ptr_eq(&own.text, &text));
+    let set = [("head.mass".to_owned(), "5 kg".to_owned())];
+    let changed = read_shared(&text, &ReadOptions { set: &set, ..ReadOptions::default() });
+    assert_ne!(changed.unwrap().value.text, text);
+    assert_eq!(*read(&text, &ReadOptions::default()).unwrap().value.text, *text);
 }
