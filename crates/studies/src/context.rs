@@ -148,13 +148,13 @@ impl Input {
         set: &[(String, String)],
         context: &mut dyn Context,
     ) -> Result<Scene, StudyError> {
-        let checked = self.with(set, context, |text, options| read(text, options))?;
+        let checked = self.with(set, context, read)?;
         context.remark(Remark::Odd(&checked.warnings));
         Ok(checked.value)
     }
 
     /// What is read from the text with the values `set`.
-    pub fn with<T>(
+    pub(crate) fn with<T>(
         &self,
         set: &[(String, String)],
         context: &dyn Context,

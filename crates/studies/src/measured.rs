@@ -48,6 +48,10 @@ impl MeasuredFile {
     }
 
     /// The one column that measures `dimension`; `None` where there is none.
+    ///
+    /// # Errors
+    ///
+    /// That there are several.
     pub fn only(
         &self,
         table: &DataTable<'_>,
@@ -69,6 +73,10 @@ impl MeasuredFile {
     }
 
     /// Two columns row by row, in SI units.
+    ///
+    /// # Errors
+    ///
+    /// What is no number, with its line.
     pub fn points(
         &self,
         table: &DataTable<'_>,

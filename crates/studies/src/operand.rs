@@ -70,7 +70,7 @@ impl Operand {
         let (path, name) = parted(word, context);
         let input = context.input(path)?;
         let subject = if let Some((from, to)) = name.split_once(',') {
-            let checked = input.with(set, context, |text, options| read_network(text, options))?;
+            let checked = input.with(set, context, read_network)?;
             context.remark(Remark::Odd(&checked.warnings));
             let network = checked.value;
             let [a, b] = [node(&network, from)?, node(&network, to)?];
