@@ -23,6 +23,8 @@ pub struct Run {
     pub budget: Budget,
     /// Whether errors of its signals will be asked for: of several intervals they take a second solution.
     pub is_bounded: bool,
+    /// Errors of a method with steps at events, in parts of its tolerance: what is smaller cannot be told from zero there.
+    pub errors_at_events: f64,
 }
 
 /// What a trajectory keeps of a solution.
@@ -59,6 +61,7 @@ impl Run {
             keep: Keep::Everything,
             budget: Budget::default(),
             is_bounded: true,
+            errors_at_events: 1e2,
         }
     }
 

@@ -120,6 +120,11 @@ pub trait Dense: Debug + Send + Sync {
         None
     }
 
+    /// Whether the intervals of a run may be others where [errors at events](crate::Run::errors_at_events) are smaller.
+    fn hangs_on_threshold(&self) -> bool {
+        false
+    }
+
     /// Gives back memory that was taken so that further signals are quicker; they are as good without. Before the first
     /// signal it says that little is to be taken. What other solutions share stays.
     fn forget(&self) {}

@@ -6,6 +6,7 @@ use crate::{
     Reading,
     errors::{
         accuracy::excess,
+        refinement::ALWAYS,
         solved::{Solved, Task},
     },
     solution::{threshold_at, undecided_ends},
@@ -98,6 +99,43 @@ const OF_INSTANTS: f64 = 1e2;
 /// How much farther back than to the last switching a run ends before it.
 const AMPLE: f64 = 2.0;
 
+/// Errors at events below which those of a solution are tried that hangs on them, in parts of what it took them for.
+const SHARPER: f64 = 1e-2;
+
+/// Widens the errors of a solution of a `run` so that they cover what comes of what it took for rest at events, where that
+/// moves by less than its error may be: a solution at each tolerance may take it for rest. The run is solved once more with
+/// errors at events that are smaller; where that fails nothing is told.
+pub(crate) fn cover_threshold(
+    task: &Task<'_>,
+    run: &Run,
+    finest: &Solved,
+    errors: &mut [Option<f64>],
+) {
+    if !finest.trajectory.dense.hangs_on_threshold() {
+        return;
+    }
+    let sharper = finest.sharper.get_or_init(|| {
+        let errors_at_events = SHARPER * run.errors_at_events;
+        let budget = run.budget.part(ALWAYS.max(run.budget.done()));
+        let run = Run { errors_at_events, budget, ..run.clone() }.with_rtol(finest.rtol);
+        task.solve(&run, false, &mut Silent).map_or_else(|_| Vec::new(), |own| own.readings)
+    });
+    widen(errors, &finest.readings, sharper);
+}
+
+/// Widens errors by what two readings differ.
+fn widen(errors: &mut [Option<f64>], own: &[Reading], other: &[Reading]) {
+    for (error, (own, other)) in errors.iter_mut().zip(own.iter().zip(other)) {
+        match (own.value, other.value) {
+            (Some(value), Some(other)) => {
+                *error = error.map(|error| error + (other - value).abs());
+            }
+            (None, None) => {}
+            _ => *error = Some(f64::INFINITY),
+        }
+    }
+}
+
 /// Widens the errors of a solution of a `run` so that they cover what comes of a switching that may lie on
 /// either side of the run's end, by the error of the method. The run is solved once more to an end that lies on
 /// the other side of it; where that fails, the errors are not known.
@@ -124,15 +162,6 @@ pub(crate) fn cover_switching(
         if other.trajectory.switches.len() == finest.trajectory.switches.len() {
             continue;
         }
-        let readings = finest.readings.iter().zip(&other.readings);
-        for (error, (own, other)) in errors.iter_mut().zip(readings) {
-            match (own.value, other.value) {
-                (Some(value), Some(other)) => {
-                    *error = error.map(|error| error + (other - value).abs());
-                }
-                (None, None) => {}
-                _ => *error = Some(f64::INFINITY),
-            }
-        }
+        widen(errors, &finest.readings, &other.readings);
     }
 }

@@ -13,7 +13,7 @@ use crate::{
             is_lost_in_noise, of_energy, rounding,
         },
         instants::Instants,
-        open_ends::{OpenEnd, cover_switching},
+        open_ends::{OpenEnd, cover_switching, cover_threshold},
         solved::{Balance, Solved, Task},
     },
     measures::selection::Selected,
@@ -26,7 +26,7 @@ const ENDS_ALIKE: usize = 6;
 /// Work of a finer solution in parts of that of the one before, and what is always granted: one that takes
 /// more will not come to an end.
 const FINER: u64 = 16;
-const ALWAYS: u64 = 10_000_000;
+pub(crate) const ALWAYS: u64 = 10_000_000;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
 /// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for its sake.
@@ -292,6 +292,7 @@ impl Task<'_> {
         };
         let mut of_method = evidence.error_bars();
         cover_switching(self, run, finest, &mut of_method);
+        cover_threshold(self, run, finest, &mut of_method);
         let mut errors = of_method.clone();
         let open_end = OpenEnd::cover(self, solved, &mut errors);
         Bars { errors, of_method, open_end }

@@ -43,6 +43,8 @@ pub(crate) struct Solved {
     pub(crate) balance: OnceCell<Balance>,
     /// What the measures have found, where there are no further solutions: signals take much memory.
     pub(crate) known: Option<Known>,
+    /// The measures with smaller errors at events, once they are asked for.
+    pub(crate) sharper: OnceCell<Vec<Reading>>,
 }
 
 /// Whether a solution can be trusted.
@@ -156,7 +158,10 @@ impl Task<'_> {
         let missing = solution.missing();
         let known = Some(solution.known()).filter(|_| self.is_single());
         let rtol = run.rtol;
-        Ok((Solved { rtol, threshold, pulls, trajectory, readings, balance, known }, missing))
+        let sharper = OnceCell::new();
+        let solved =
+            Solved { rtol, threshold, pulls, trajectory, readings, balance, known, sharper };
+        Ok((solved, missing))
     }
 
     fn spent(&self, trajectory: &Trajectory, work: u64) -> SolveError {

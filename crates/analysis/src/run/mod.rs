@@ -127,13 +127,12 @@ fn found(
     let settings = task.settings;
     memory::foresee(assembly)?;
     let run = Run {
-        t_end: settings.duration,
         rtol: settings.rtol.unwrap_or(SINGLE),
-        tolerance_scaling: Vec::new(),
         guards: guards(assembly, settings)?,
         keep: keep_also(&keep(assembly, task.selected), outputs),
         budget: Budget::of(settings.budget),
         is_bounded,
+        ..Run::to(settings.duration)
     };
     let is_free = matches!(settings.method, Choice::Auto);
     let first = choose(&settings.method, assembly, &run);

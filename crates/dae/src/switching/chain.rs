@@ -30,6 +30,8 @@ pub(super) struct Chain {
     pub(super) doubled: Option<Vec<Solved>>,
     /// See [`Dense::end_margin`].
     pub(super) end_margin: Option<f64>,
+    /// See [`Dense::hangs_on_threshold`].
+    pub(super) hangs_on_threshold: bool,
 }
 
 /// Intervals beyond which what makes further signals of an interval quicker takes too much memory.
@@ -67,6 +69,10 @@ impl Dense for Chain {
 
     fn end_margin(&self) -> Option<f64> {
         self.end_margin
+    }
+
+    fn hangs_on_threshold(&self) -> bool {
+        self.hangs_on_threshold
     }
 
     fn bytes(&self) -> usize {

@@ -23,8 +23,6 @@ const FEW: usize = 8;
 const AT_ONCE: f64 = 1.0;
 /// Most intervals that begin at one instant: more are a sign that no phases hold there.
 const MOST_AT_ONCE: usize = 64;
-/// Errors of stepping methods at events, in parts of their tolerance.
-const ERRORS_PER_TOLERANCE: f64 = 1e2;
 /// Most that such errors may be in parts of a quantity: were they as large as the quantity itself, a part
 /// could not be told to have left its level, and would switch there again and again.
 const LARGEST_ERROR: f64 = 0.1;
@@ -51,7 +49,7 @@ pub fn integrate(
     let threshold = if method.is_exact() {
         ROUNDINGS * f64::EPSILON
     } else {
-        (ERRORS_PER_TOLERANCE * run.rtol).min(LARGEST_ERROR)
+        (run.errors_at_events * run.rtol).min(LARGEST_ERROR)
     };
     let mut shared = Shared::default();
     let Solution { mut chain, name, t_end, first_phases, mut found } =
@@ -165,6 +163,7 @@ fn solve(
             threshold,
         };
         interval = switching.next(&end)?;
+        drive.chain.hangs_on_threshold |= interval.hangs_on_threshold;
         found.switches.extend(interval.switches.iter().cloned());
         drive.start = reached;
     }
@@ -249,12 +248,11 @@ impl Drive<'_> {
         let last = interval.until.map_or(self.run.t_end, |until| until.min(self.run.t_end));
         let run = Run {
             t_end: (DoubleDouble::from(last) - self.start).high(),
-            rtol: self.run.rtol,
             tolerance_scaling: Vec::new(),
             guards: interval.guards.iter().chain(&self.run.guards).cloned().collect(),
             keep: Keep::Everything,
             budget: self.run.budget.clone(),
-            is_bounded: self.run.is_bounded,
+            ..*self.run
         };
         let mut shifted =
             Shifted { start: self.start.high(), steps: self.steps, observer: &mut *self.observer };

@@ -34,6 +34,8 @@ pub struct ModeInterval {
     pub until: Option<f64>,
     /// How many choices of phases were tried until these held.
     pub tried: usize,
+    /// Whether others would have held, had the threshold been much smaller.
+    pub hangs_on_threshold: bool,
 }
 
 /// The end of an interval at guards, or at the time at which it had to end.

@@ -43,6 +43,7 @@ impl Walls {
             predicted: None,
             until: None,
             tried: 1,
+            hangs_on_threshold: false,
         }
     }
 }

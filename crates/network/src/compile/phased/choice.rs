@@ -5,7 +5,7 @@ use dashpot_dae::{SolveError, Switch};
 use super::{
     super::transfer::State,
     PhasedNetwork,
-    impacts::{Meeting, Rebound},
+    impacts::{FOLLOWED, Impact, Meeting, Rebound},
     judge::{Admissibility, Choice, Fault, Judge, Verdict},
     search::Search,
 };
@@ -79,6 +79,28 @@ impl Instant<'_> {
         };
         self.options.iter().map(criteria).collect()
     }
+
+    /// How phases are judged after impacts that have let `parted` part.
+    fn judge<'a>(
+        &'a self,
+        state: &'a State,
+        criteria: &'a [Admissibility],
+        parted: &'a [(usize, [usize; 2])],
+        size: (f64, f64),
+    ) -> Judge<'a> {
+        Judge {
+            time: self.time,
+            is_jump: self.is_jump,
+            state,
+            before: self.phases,
+            on_level: &self.on_level,
+            at_level: &self.at_level,
+            suppressed: &self.suppressed,
+            criteria,
+            parted,
+            size,
+        }
+    }
 }
 
 /// Numbers of the searches in whose groups a part does not stay.
@@ -134,7 +156,10 @@ impl PhasedNetwork {
                         searches.iter().flat_map(|search| search.impacts.clone()).collect();
                     let switches = self.switches(time, phases, &choice.phases, &impacts);
                     if doubtful.is_empty() {
-                        return Ok((Choice { tried: count, ..*choice }, switches));
+                        let judged = (&searches[..], &criteria[..], length);
+                        let hangs_on_threshold = self.hangs(&tried, state, &instant, judged);
+                        let choice = Choice { tried: count, hangs_on_threshold, ..*choice };
+                        return Ok((choice, switches));
                     }
                     faults = doubtful;
                     spare.get_or_insert_with(|| (*choice, switches, state.clone()));
@@ -160,7 +185,8 @@ impl PhasedNetwork {
                         return Err(self.stuck(time, search, refusal));
                     }
                     state.clone_from(&own);
-                    return Ok((Choice { tried: count, ..choice }, switches));
+                    let hangs_on_threshold = true;
+                    return Ok((Choice { tried: count, hangs_on_threshold, ..choice }, switches));
                 }
                 search.way += 1;
                 if search.way == instant.ways.len() {
@@ -227,19 +253,32 @@ impl PhasedNetwork {
         let impacts = searches.iter().flat_map(|search| &search.impacts);
         let parted = impacts.filter(|impact| impact.rebound_speed.is_some());
         let parted: Vec<_> = parted.map(|impact| (impact.part, impact.sides)).collect();
-        let judge = Judge {
-            time: instant.time,
-            is_jump: instant.is_jump,
-            state,
-            before: instant.phases,
-            on_level: &instant.on_level,
-            at_level: &instant.at_level,
-            suppressed: &instant.suppressed,
-            criteria,
-            parted: &parted,
-            size: (length, self.own_speed(state)),
+        let size = (length, self.own_speed(state));
+        self.judge(tried, &instant.judge(state, criteria, &parted, size))
+    }
+
+    /// Whether phases hold only because what moves is held to rest: by an impact whose rebound is below the threshold, or by a
+    /// part whose rate is.
+    fn hangs(
+        &self,
+        phases: &[Phase],
+        state: &State,
+        instant: &Instant<'_>,
+        (searches, criteria, length): (&[Search], &[Admissibility], f64),
+    ) -> bool {
+        let threshold = FOLLOWED * instant.threshold;
+        let speed = self.own_speed(&instant.before);
+        let rests = |impact: &Impact| {
+            let [a, b] = impact.sides.map(|side| self.velocity(&instant.before, side));
+            let own = self.phases_of(self.parts[impact.part]);
+            let restitution = own.map_or(0.0, |own| own.restitution());
+            impact.rebound_speed.is_none() && restitution * (a - b) > threshold * speed
         };
-        self.judge(tried, &judge)
+        let sharper = |own: &Admissibility| Admissibility { threshold, ..*own };
+        let sharper: Vec<Admissibility> = criteria.iter().map(sharper).collect();
+        let judge = instant.judge(state, &sharper, &[], (length, speed));
+        searches.iter().flat_map(|search| &search.impacts).any(rests)
+            || !self.held_apart(phases, &judge).is_empty()
     }
 
     /// Applies the impacts of a group, and sets the criteria of its parts.

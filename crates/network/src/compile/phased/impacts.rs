@@ -97,7 +97,7 @@ const SWEEPS: usize = 20_000;
 const RESTING: f64 = 1e-9;
 /// The same of what is followed without a method, in parts of the threshold, so that what is left
 /// out is no more than a method's tolerance.
-const FOLLOWED: f64 = 0.01;
+pub(super) const FOLLOWED: f64 = 0.01;
 /// Speeds of rebound that can be told from none, in parts of the threshold.
 const TOLD: f64 = 4.0;
 

@@ -26,6 +26,8 @@ pub(super) struct Choice {
     pub(super) predicted: Option<PredictedEvent>,
     /// How many choices were tried, with this one.
     pub(super) tried: usize,
+    /// Whether others would have held, had the threshold been much smaller.
+    pub(super) hangs_on_threshold: bool,
 }
 
 /// A part that does not stay in the phase that is tried.
@@ -164,7 +166,16 @@ impl PhasedNetwork {
         let next = returns.into_iter().flatten().map(|event| event.0);
         let predicted = next.min_by(|a, b| a.length.total_cmp(&b.length)).filter(|_| is_followed);
         let phases = phases.to_vec();
-        let choice = Choice { mode, system, phases, unknowns, levels, predicted, tried: 1 };
+        let choice = Choice {
+            mode,
+            system,
+            phases,
+            unknowns,
+            levels,
+            predicted,
+            tried: 1,
+            hangs_on_threshold: false,
+        };
         Verdict::Holds(Box::new(choice), doubtful)
     }
 
@@ -208,7 +219,7 @@ impl PhasedNetwork {
     }
 
     /// The parts that would have to hold what is elsewhere, or what moves apart.
-    fn held_apart(&self, phases: &[Phase], judge: &Judge<'_>) -> Vec<Fault> {
+    pub(super) fn held_apart(&self, phases: &[Phase], judge: &Judge<'_>) -> Vec<Fault> {
         let (length, speed) = judge.size;
         let held: Vec<(usize, f64)> = (0..self.parts.len())
             .filter_map(|part| match self.phases_of(self.parts[part])?.law(phases[part]) {

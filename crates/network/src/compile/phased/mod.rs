@@ -273,12 +273,15 @@ impl PhasedNetwork {
         self.go_on(state, time);
         let (choice, more) = self.choose(state, (time, false), &jumped.phases, &[], threshold)?;
         switches.extend(more);
-        Ok((Choice { tried: choice.tried + jumped.tried, ..choice }, switches))
+        let hangs_on_threshold = choice.hangs_on_threshold || jumped.hangs_on_threshold;
+        let tried = choice.tried + jumped.tried;
+        Ok((Choice { tried, hangs_on_threshold, ..choice }, switches))
     }
 
     /// The interval that begins at `time` with these phases.
     fn interval(time: f64, choice: Choice, switches: Vec<Switch>) -> ModeInterval {
-        let Choice { mode, system, phases, unknowns, levels, predicted, tried } = choice;
+        let Choice { mode, system, phases, unknowns, levels, predicted, tried, hangs_on_threshold } =
+            choice;
         let mut system = System::clone(&system);
         system.initial = unknowns;
         let until = mode.kinks.get(mode.kinks.partition_point(|&kink| kink <= time)).copied();
@@ -300,6 +303,7 @@ impl PhasedNetwork {
             predicted,
             until,
             tried,
+            hangs_on_threshold,
         }
     }
 
