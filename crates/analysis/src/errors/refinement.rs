@@ -233,7 +233,7 @@ impl Task<'_> {
             }
         }
         let Descent { mut last, solves, wall, obstacle, .. } = descent;
-        let Bars { mut errors, of_method, open_end } = self.bars(run, &last);
+        let Bars { mut errors, of_method, open_end } = self.bars(run, &last, true);
         for &at in open_end.iter().flat_map(|own| &own.undecided) {
             errors[at] = Some(f64::INFINITY);
         }
@@ -260,7 +260,7 @@ impl Task<'_> {
     fn is_done(&self, run: &Run, descent: &mut Descent) -> bool {
         descent.obstacle = None;
         self.settle_undecided(&mut descent.last);
-        let bars = self.bars(run, &descent.last);
+        let bars = self.bars(run, &descent.last, false);
         let Some(finest) = descent.last.last_mut() else { return false };
         self.settle_zeros(finest, &bars.errors);
         if self.is_good_enough(finest, &bars.errors) {
@@ -272,8 +272,9 @@ impl Task<'_> {
         descent.left == 0
     }
 
-    /// The error of each measure of the last of some solutions; unknown if there are too few.
-    fn bars(&self, run: &Run, solved: &[Solved]) -> Bars {
+    /// The error of each measure of the last of some solutions; unknown if there are too few. Whether that `is_last` is
+    /// whether it is reported whatever they are.
+    fn bars(&self, run: &Run, solved: &[Solved], is_last: bool) -> Bars {
         let Some((finest, others)) = solved.split_last().filter(|_| solved.len() == SOLUTIONS)
         else {
             let none = vec![None; self.selected.len()];
@@ -292,7 +293,10 @@ impl Task<'_> {
         };
         let mut of_method = evidence.error_bars();
         cover_switching(self, run, finest, &mut of_method);
-        cover_threshold(self, run, finest, &mut of_method);
+        // Of what does not suffice anyhow another solution would tell nothing, unless it is what is reported.
+        if is_last || self.is_good_enough(finest, &of_method) {
+            cover_threshold(self, run, finest, &mut of_method);
+        }
         let mut errors = of_method.clone();
         let open_end = OpenEnd::cover(self, solved, &mut errors);
         Bars { errors, of_method, open_end }

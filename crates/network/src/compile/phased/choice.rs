@@ -431,7 +431,7 @@ impl PhasedNetwork {
         time: f64,
         before: &[Phase],
         after: &[Phase],
-        impacts: &[super::impacts::Impact],
+        impacts: &[Impact],
     ) -> Vec<Switch> {
         let name = |part: usize| self.expansion.primitives[self.parts[part]].name.to_string();
         let mut switches = Vec::new();
