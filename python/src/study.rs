@@ -102,7 +102,7 @@ pub(crate) fn ask<'py>(
     let answered = py.detach(|| {
         let share = Arc::new(Share::default());
         let told = Arc::clone(&share);
-        let work = Work::begun(move || {
+        let asked = Work::begun(move || {
             let mut memory = Memory { texts, share: told, said: Vec::new() };
             let answer = study.solve((&operands, &set), &request, &mut memory);
             Some(match answer {
@@ -117,7 +117,7 @@ pub(crate) fn ask<'py>(
                 Err(error) => Err((error.is_of_input(), faults(&error))),
             })
         })?;
-        work.awaited(&share, &asking)
+        asked.awaited(&share, &asking)
     })?;
     match answered {
         Some(Ok((outcome, object, said))) => {
@@ -222,6 +222,7 @@ impl Context for Memory {
         });
     }
 
+    #[expect(clippy::cast_precision_loss, reason = "a share for people")]
     fn progress(&mut self, done: usize, of: usize) -> ControlFlow<()> {
         self.share.tell(done as f64 / of as f64)
     }

@@ -241,14 +241,14 @@ impl CliError {
             // The place is wrong; all else, such as a full disk, is a failure.
             Self::Unwritable { source, .. } if is_wrong_place(source) => Status::InputWrong,
             Self::Study(error) if error.is_of_input() => Status::InputWrong,
-            Self::Study(_) => Status::RunFailed,
             Self::Sweep(error) => match error {
                 SweepError::NotPosed(_) | SweepError::NoPoints | SweepError::NoneReported => {
                     Status::InputWrong
                 }
                 _ => Status::RunFailed,
             },
-            Self::Busy { .. }
+            Self::Study(_)
+            | Self::Busy { .. }
             | Self::Interrupted { .. }
             | Self::Unwritable { .. }
             | Self::Output(_)

@@ -43,7 +43,10 @@ pub(crate) struct StudyArguments {
 
 impl std::fmt::Debug for StudyArguments {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct(self.study.word()).field(OF_SCENE, &self.operands).finish()
+        formatter
+            .debug_struct(self.study.word())
+            .field(OF_SCENE, &self.operands)
+            .finish_non_exhaustive()
     }
 }
 

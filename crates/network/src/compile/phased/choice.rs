@@ -9,7 +9,7 @@ use super::{
     judge::{Admissibility, Choice, Fault, Judge, Verdict},
     search::Search,
 };
-use crate::phases::{Exit, Phase, Watched};
+use crate::phases::{Exit, Phase, Phases, Watched};
 
 /// A way of judging who stays.
 #[derive(Debug, Clone, Copy)]
@@ -271,7 +271,7 @@ impl PhasedNetwork {
         let rests = |impact: &Impact| {
             let [a, b] = impact.sides.map(|side| self.velocity(&instant.before, side));
             let own = self.phases_of(self.parts[impact.part]);
-            let restitution = own.map_or(0.0, |own| own.restitution());
+            let restitution = own.map_or(0.0, Phases::restitution);
             impact.rebound_speed.is_none() && restitution * (a - b) > threshold * speed
         };
         let sharper = |own: &Admissibility| Admissibility { threshold, ..*own };
