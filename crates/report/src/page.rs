@@ -57,7 +57,7 @@ pub struct ReportFigure {
     /// Text below the drawing; empty for none. The network's is not printed, it only names the drawing to readers
     /// who do not see it.
     pub caption: String,
-    /// SVG element as [`Chart::svg`](crate::Chart::svg) and [`Sketch::svg`](crate::Sketch::svg) write it. It is taken
+    /// SVG element as [`Chart::svg`] and [`Sketch::svg`](dashpot_plot::Sketch::svg) write it. It is taken
     /// over as it stands.
     pub svg: String,
     /// The same for a phone, as [`Chart::narrow_svg`] writes it; empty where there is none, and `svg` keeps its size there.
