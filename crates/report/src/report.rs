@@ -20,7 +20,7 @@ use crate::{
 /// report.notes(["every ratio within 1e-10 %"]);
 /// let text = Text::written((), |text| text.report(&report, false));
 /// assert!(text.contains("\nModes\n  mode  frequency\n"));
-/// assert!(report.html()?.contains("<td>6.3 Hz</td>") || report.html()?.contains("6.3 Hz</td>"));
+/// assert!(report.html()?.contains("<td class=\"number\">6.3 Hz</td>"));
 /// # Ok::<(), dashpot_plot::PlotError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

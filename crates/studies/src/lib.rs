@@ -8,12 +8,12 @@
 //! # Examples
 //!
 //! ```
-//! use dashpot_studies::vibrate::{VibrateRequest, vibrate};
+//! use dashpot_studies::{Context as _, vibrate::{VibrateRequest, vibrate}};
 //!
-//! let scene = dashpot_scene::reference();
+//! let scene = ().input("reference")?.scene(&[], &mut ())?;
 //! let mut request = VibrateRequest::default();
 //! request.drive = Some("ground".to_owned());
-//! let vibrated = vibrate(scene, &request, &mut ())?;
+//! let vibrated = vibrate(&scene, &request, &mut ())?;
 //! assert_eq!(vibrated.sweep.transmissions.len(), 2);
 //! # Ok::<(), dashpot_studies::StudyError>(())
 //! ```

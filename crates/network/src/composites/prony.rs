@@ -31,7 +31,7 @@ parameters! {
     /// use dashpot_network::composites::{CompositeKind, Prony};
     ///
     /// let foam = Prony { equilibrium: 2e6, terms: vec![(1e-3, 3e6), (0.1, 1e6)] }.compose()?;
-    /// let names: Vec<_> = foam.model.branches().iter().map(|own| own.name.as_str()).collect();
+    /// let names: Vec<_> = foam.model.branches().iter().map(|own| own.name.as_ref()).collect();
     /// assert_eq!(names, ["equilibrium", "maxwell-1", "maxwell-2"]);
     /// # Ok::<(), dashpot_network::parameters::InvalidParameter>(())
     /// ```
