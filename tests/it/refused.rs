@@ -85,6 +85,58 @@ fn what_is_set_twice_is_refused() {
     assert_eq!(code(&run(&["run", scene, "--set", "K=50 kN/m", "--variant", "K=60 kN/m"])), 0);
 }
 
+/// A folder is refused for files that would be written over, not for others that the verb might have written.
+#[test]
+fn a_file_of_someone_else_that_a_study_does_not_write_is_no_obstacle() {
+    let room = TempDir::new().unwrap();
+    let test = |file: &str, test: &str| {
+        let folder = room.path().join(format!("{file}-{test}"));
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join(file), "mine").unwrap();
+        let folder = text(&folder);
+        let output = run(&["rheometer", "reference:padding", "--test", test, "--out", folder]);
+        (code(&output), fs::read_to_string(format!("{folder}/{file}")).unwrap())
+    };
+    assert_eq!(test("creep.csv", "relaxation"), (0, "mine".to_owned()));
+    assert_eq!(test("creep.csv", "creep"), (2, "mine".to_owned()));
+}
+
+#[test]
+fn an_option_does_not_take_the_next_one_for_its_value() {
+    let shaken = ["vibrate", "reference", "--drive"];
+    for arguments in [
+        [&shaken[..], &["--json"]].concat(),
+        [&shaken[..], &["ground", "--of", "--json"]].concat(),
+        [&shaken[..], &["ground", "--points", "-5"]].concat(),
+        vec!["compare", "reference:padding", "reference:mount", "--impact", "--json"],
+        vec!["rheometer", "reference:padding", "--with", "--json"],
+    ] {
+        let output = run(&arguments);
+        assert_eq!((code(&output), out(&output).as_str()), (2, ""), "{arguments:?}");
+        let said = said(&output);
+        assert!(
+            said.contains("a value is required") || said.contains("unexpected argument"),
+            "{arguments:?}: {said}"
+        );
+    }
+    // A quantity may be negative, and is refused for what it is.
+    let output = run(&[&shaken[..], &["ground", "--from", "-1 Hz"]].concat());
+    assert!(said(&output).contains("positive"), "{}", err(&output));
+}
+
+/// What is a path of the system need be no text.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_study_takes_a_scene_whose_name_is_no_text() {
+    use std::{ffi::OsStr, os::unix::ffi::OsStrExt as _};
+    let room = TempDir::new().unwrap();
+    let scene = room.path().join(OsStr::from_bytes(b"pad-\xff.toml"));
+    fs::write(&scene, PAD).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dashpot"));
+    let output = command.arg("vibrate").arg(&scene).args(["--drive", "ground"]).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", err(&output));
+}
+
 #[test]
 fn options_that_do_something_are_taken() {
     let room = TempDir::new().unwrap();
