@@ -204,6 +204,27 @@ fn search(
     scan(&run.guards, &signals)
 }
 
+/// The same, and the time \[s\] up to which it was looked: an event far before the end of a part lies in the rounding of a
+/// polynomial that reaches there, and is looked for again in a shorter one.
+fn search_near(
+    solution: &Solution,
+    system: &System,
+    run: &Run,
+    until: f64,
+) -> (Vec<Event>, Option<Stop>, f64) {
+    let mut part = until;
+    let (mut events, mut stop) = search(solution, system, run, part);
+    while let Some(near) = stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part) {
+        let nearer = BEYOND * near.time;
+        let again = search(solution, system, run, nearer);
+        if again.1.is_none() {
+            break;
+        }
+        (events, stop, part) = (again.0, again.1, nearer);
+    }
+    (events, stop, part)
+}
+
 /// Whether the frequency of a driving function in use is swept on a piece that begins before `end`.
 fn is_swept(system: &System, end: f64) -> bool {
     let swept = |waveform: &Waveform| {
@@ -280,23 +301,11 @@ impl Exact {
                 parts.insert(0, before);
             }
             let mut last = None;
-            for mut part in parts {
-                let until = part;
+            for until in parts {
                 if may_stop(run) {
                     Self::count(&solution, until / system.time_scale)?;
                 }
-                let (mut found, mut stop) = search(&solution, system, run, part);
-                // What is far away lies in the rounding of a polynomial that reaches there.
-                while let Some(near) =
-                    stop.filter(|stop| 0.0 < stop.time && stop.time < NEAR * part)
-                {
-                    let nearer = BEYOND * near.time;
-                    let again = search(&solution, system, run, nearer);
-                    if again.1.is_none() {
-                        break;
-                    }
-                    (found, stop, part) = (again.0, again.1, nearer);
-                }
+                let (found, stop, part) = search_near(&solution, system, run, until);
                 if run.budget.is_spent() {
                     let (time, work) = (until, run.budget.done());
                     return Err(SolveError::BudgetSpent { method: Self::KIND, time, work });

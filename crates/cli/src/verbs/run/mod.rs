@@ -9,6 +9,7 @@ mod deviations;
 mod energy;
 mod files;
 mod floor;
+mod left_out;
 mod limits;
 mod measures;
 mod object;

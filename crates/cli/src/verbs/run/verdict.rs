@@ -1,22 +1,21 @@
-//! The answer in a few lines, and what was left out of a run.
+//! The answer in a few lines.
 
 use dashpot_analysis::{
-    Compression, Contact, ContactReport, MeasureReport, Note, Partial, RunReport,
+    Compression, Contact, ContactReport, MeasureReport, Note, RunReport,
     measures::{Hic, STANDARD_GRAVITY},
-    partial::{Cost, Verification, Why},
     verdict::{Depth, Ending, Layer, Opened, Peak, Reached, TakenUp, Verdict, WholeForce},
 };
 use dashpot_network::parameters::Kind as _;
 use dashpot_units::percent;
 
 use super::{
-    Answer, limits,
+    Answer,
+    left_out::{left_out, put_back},
+    limits,
     measures::{is_hic, is_index, is_zero, largest, unit_of_zero},
     scatter,
 };
-use dashpot_report::numbers::{
-    self, Unit, apart, bound, constant, duration, estimate, quantity, rounded, share, significant,
-};
+use dashpot_report::numbers::{self, Unit, bound, constant, quantity, rounded, share, significant};
 
 /// How far something is pressed.
 const DEFLECTION: &str = "max. deflection";
@@ -446,61 +445,4 @@ fn next_digit(answer: &Answer, run: &RunReport) -> Option<String> {
     let next = 0.1 * wished.min(worst);
     let text = bound(next).replace(' ', "");
     (next > FINEST).then(|| format!("`--accuracy {text}`, one or two further solutions"))
-}
-
-/// What was left out, what that cost, and what the proof of it took.
-fn left_out(run: &RunReport) -> Option<String> {
-    let partial = run.partial.as_ref()?;
-    let checked = verification(partial.verification);
-    let names = partial.left_out.iter().map(|own| {
-        format!("{} ({})", own.effect, estimate(&own.influence.formula, own.influence.value))
-    });
-    let names: Vec<String> = names.collect();
-    if names.is_empty() {
-        let other = if partial.put_back.is_empty() { "" } else { " other" };
-        return Some(match partial.verification.solves {
-            0 => format!("nothing: no{other} estimate is below the bound"),
-            _ => format!("nothing{checked}"),
-        });
-    }
-    let cost = partial.worst().map_or(String::new(), |worst| format!(": {}", moved(worst)));
-    Some(format!("{}{cost}, the most of all{checked}", names.join(", ")))
-}
-
-/// What stayed although its estimate was small.
-fn put_back(run: &RunReport) -> Option<String> {
-    let partial = run.partial.as_ref()?;
-    let texts = partial.put_back.iter().map(|own| {
-        let estimate = estimate(&own.influence.formula, own.influence.value);
-        format!("{} ({estimate}): {}", own.effect, why(partial, &own.why))
-    });
-    let texts: Vec<String> = texts.collect();
-    (!texts.is_empty()).then(|| texts.join("; "))
-}
-
-fn why(partial: &Partial, why: &Why) -> String {
-    match why {
-        Why::Moves(cost) => {
-            format!("without it {}, more than {}", moved(cost), apart(partial.bound))
-        }
-        Why::Fails(error) => format!("without it {error}"),
-        Why::Pulls { element, time } => {
-            format!(
-                "without it the {element} goes into tension at {}",
-                quantity(*time, "s", TIME_DIGITS)
-            )
-        }
-    }
-}
-
-fn moved(cost: &Cost) -> String {
-    let size = if cost.most().is_finite() { apart(cost.most()) } else { "all of it".to_owned() };
-    format!("`{}` moves by {size}", cost.measure)
-}
-
-fn verification(verification: Verification) -> String {
-    match verification.solves {
-        1 => format!("; checked by 1 further run in {}", duration(verification.wall)),
-        solves => format!("; checked by {solves} further runs in {}", duration(verification.wall)),
-    }
 }
