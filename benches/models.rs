@@ -1,6 +1,6 @@
 //! Conversion and comparison of models of many modes.
 //!
-//! `cargo bench --bench models`. Conversion of 60 modes is meant to stay below 1 ms, and the
+//! `cargo bench -p dashpot-benches --bench models`. Conversion of 60 modes is meant to stay below 1 ms, and the
 //! comparison of two models of 30 modes, one of each form, below 10 ms.
 
 use std::hint::black_box;

@@ -1,6 +1,6 @@
 //! The reference impact: hand-written code and ours, side by side in one run.
 //!
-//! `cargo bench --bench reference` prints criterion's times, and before them a table of what each
+//! `cargo bench -p dashpot-benches --bench reference` prints criterion's times, and before them a table of what each
 //! contender reaches: true error of the padding's force, steps, and the ratios that matter.
 #![expect(
     clippy::expect_used,

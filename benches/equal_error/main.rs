@@ -1,6 +1,6 @@
 //! Every method against hand-written code at equal true error, side by side in one run.
 //!
-//! `cargo bench --bench equal_error` prints a table for each problem, and with `UPDATE_DOCS=1` writes
+//! `cargo bench -p dashpot-benches --bench equal_error` prints a table for each problem, and with `UPDATE_DOCS=1` writes
 //! them into `docs/benchmarks.md`. Words after `--` pick the problems whose titles have them.
 #![expect(
     clippy::print_stdout,
@@ -30,7 +30,7 @@ use self::{
 
 /// Where the tables stand in the document.
 const PLACE: (&str, &str) = ("<!-- measured: equal error -->", "<!-- end -->");
-const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/benchmarks.md");
+const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/benchmarks.md");
 
 /// The name of CVODE's row.
 const CVODE: &str = "CVODE, banded";

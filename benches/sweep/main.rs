@@ -1,6 +1,6 @@
 //! Sweeps of the reference impact and of a drop on foam: code written by hand and ours, side by side in one run.
 //!
-//! `cargo bench --bench sweep` prints the CPU time of a scene on one core, as a ratio to that by hand. By hand a
+//! `cargo bench -p dashpot-benches --bench sweep` prints the CPU time of a scene on one core, as a ratio to that by hand. By hand a
 //! scene of the reference impact is a matrix exponential and 500 products with it, after each of which force and
 //! deformation are looked at; it finds the largest sample, ours the largest value. Impacts that are not linear are by
 //! hand in `explicit`.

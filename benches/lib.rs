@@ -1,0 +1,1 @@
+//! Benchmarks alone: see `docs/benchmarks.md`.
