@@ -16,9 +16,12 @@ import numpy as np
 
 from . import _dashpot
 
+# What scenes and studies name in their own way.
+_ALIKE = {"values": "set", "set": "values"}
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
-_QUOTED = re.compile(r"([`'])(--[^`']*)\1|(--[a-z-]+)")
+# Whole commands in quotation marks stay as they are.
+_QUOTED = re.compile(r"`dashpot [^`]*`|([`'])(--[^`']*)\1|(--[a-z-]+)")
 _FLAG = re.compile(r"--([a-z-]+)(.*)", re.S)
 
 
@@ -70,7 +73,7 @@ def checked(function: Callable[_P, _R]) -> Callable[_P, _R]:
 
 def closest(name: str, known: list[str]) -> str:
     """What may be meant, and what there is, as the end of a sentence."""
-    near = difflib.get_close_matches(name, known)
+    near = [_ALIKE[name]] if _ALIKE.get(name) in known else difflib.get_close_matches(name, known)
     meant = f": did you mean {' or '.join(map(repr, near))}? There" if near else "; there"
     return f"{meant} are {', '.join(known)}"
 
@@ -89,6 +92,8 @@ def in_python(verb: str, text: str | None) -> str | None:
         return f"{keyword_of(name)}={value}" if value[0] == '"' else f'{keyword_of(name)}="{value}"'
 
     def written(found: re.Match[str]) -> str:
+        if not (found[2] or found[3]):
+            return found[0]
         flags = [flag(own) for own in re.split(r" (?=--[a-z])", found[2] or found[3])]
         return found[0] if None in flags else f"`{', '.join(flags)}`"
 

@@ -41,7 +41,7 @@ def _function(study: Mapping[str, Any]) -> Any:
     function.__signature__ = inspect.Signature([*named, *options, *further], return_annotation="Result")  # type: ignore[attr-defined]
     lines = [f"    {keyword_of(own['name'])}: {in_python(study['word'], own['about'])}" for own in study["options"]]
     about = [study["about"] + ".", "", "Numbers are in SI units; a text has its unit, as ``\"20 Hz\"``.", "", "Args:"]
-    function.__doc__ = "\n".join([*about, *lines, "    set: values of the scene or model, by name or path."])
+    function.__doc__ = "\n".join([*about, *lines, "    set: values in place of those of the scene or model, by name or path; the text of a scene is a `Scene(text=…)`."])
     return function
 
 

@@ -93,7 +93,7 @@ def asked_of(
         _warn(verb, operands, said, found)
         return Result(found, status, said)
     check(verb, own, [*known, "set"])
-    pairs = _set(own.pop("set", None) or {}, scene)
+    pairs = _set(own.pop("set", None) or {})
     request = {known[name]: value for name, value in own.items()}
     try:
         status, found, said = _dashpot.ask(verb, words, pairs, request, texts, progress)
@@ -103,10 +103,10 @@ def asked_of(
     return Result(found, status, said)
 
 
-def _set(given: Any, scene: Any) -> list[tuple[str, str]]:
+def _set(given: Any) -> list[tuple[str, Any]]:
     """Names and their values: of a dictionary, or of one or several texts with ``=`` between them."""
     if isinstance(given, Mapping):
-        return [(name, values(name, value, scene)) for name, value in given.items()]
+        return list(given.items())
     pairs = [own.rsplit("=", 1) for own in ([given] if isinstance(given, str) else given)]
     return [(name.strip(), value.strip()) for name, value in pairs]
 
@@ -169,7 +169,10 @@ def _operand(operand: Any, texts: dict[str, str]) -> str:
             name = next(others)
         texts[name] = operand.text
         return name
-    return os.fspath(operand)
+    path = os.fspath(operand)
+    if "\n" in str(path):
+        raise ValueError("this is the text of a scene, where its path is wanted: `Scene(text=…)` takes it")
+    return path
 
 
 def _verb(name: str, doc: str) -> Any:

@@ -5,8 +5,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, Tone, open, read_scene};
-use dashpot_network::parameters::Dimension;
+use dashpot_cli::{RunOptions, Said, ScatterArguments, SceneRun, open, read_scene};
 use dashpot_scene::Tunables;
 use dashpot_units::si_unit;
 use pyo3::{prelude::*, types::PyList};
@@ -14,6 +13,7 @@ use pyo3::{prelude::*, types::PyList};
 use crate::{
     failure::{Kind, failure, listed, sentence},
     report::Report,
+    study,
     watch::{Asking, OfRun},
 };
 
@@ -112,14 +112,8 @@ impl Scene {
 
     /// A value of the number of this name as a text that is read back to the same bits.
     fn written(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<String> {
-        let all = self.tunables(py)?;
-        let at = all.find(name).map_err(|fault| {
-            let said = Said { help: fault.help(), ..Said::plain(Tone::Error, fault.to_string()) };
-            failure(py, Kind::Input, &[said])
-        })?;
-        let dimension = all.all()[at].dimension.filter(|own| *own != Dimension::NUMBER);
-        let unit = dimension.map_or_else(String::new, |own| format!(" {}", si_unit(own)));
-        Ok(format!("{value:?}{unit}"))
+        let text = study::written(self.tunables(py)?, name, value);
+        text.map_err(|said| failure(py, Kind::Input, &[said]))
     }
 
     /// Solves it by the method of this name, or by the one that it names, or else by what suits.

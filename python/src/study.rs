@@ -3,9 +3,11 @@
 use std::{collections::HashMap, ops::ControlFlow, path::Path, sync::Arc};
 
 use dashpot_cli::{Said, Tone};
-use dashpot_scene::Diagnostics;
+use dashpot_network::parameters::Dimension;
+use dashpot_scene::{Diagnostics, Tunables, units::si_unit};
 use dashpot_studies::{
-    Context, Given, Input, Kind, Operands, OptionInfo, Outcome, Remark, STUDIES, StudyError,
+    BUILT_IN, Context, Given, Input, Kind, Operands, OptionInfo, Outcome, Remark, STUDIES,
+    StudyError, operand::parted,
 };
 use pyo3::{
     exceptions::PyTypeError,
@@ -78,7 +80,7 @@ pub(crate) fn ask<'py>(
     py: Python<'py>,
     word: &str,
     operands: Vec<String>,
-    set: Vec<(String, String)>,
+    set: Vec<(String, Bound<'py, PyAny>)>,
     options: Bound<'py, PyDict>,
     texts: HashMap<String, String>,
     progress: Option<Py<PyAny>>,
@@ -98,6 +100,11 @@ pub(crate) fn ask<'py>(
         }
         request.extend(values.into_iter().map(|given| (name.clone(), given)));
     }
+    let set = set.iter().map(|(name, value)| {
+        let text = assigned(name, &given(value)?, &operands, &texts);
+        Ok((name.clone(), text.map_err(|said| failure(py, failure::Kind::Input, &[said]))?))
+    });
+    let set = set.collect::<PyResult<Vec<_>>>()?;
     let asking = Asking::new(progress);
     let answered = py.detach(|| {
         let share = Arc::new(Share::default());
@@ -186,6 +193,48 @@ fn given(value: &Bound<'_, PyAny>) -> PyResult<Vec<Given>> {
     }
     let parts = value.try_iter()?.map(|part| given(&part?));
     Ok(parts.collect::<PyResult<Vec<_>>>()?.concat())
+}
+
+/// The text of values that are set; numbers are in the SI unit of the number of that name in the first operand that has one.
+fn assigned(
+    name: &str,
+    values: &[Given],
+    operands: &[String],
+    texts: &HashMap<String, String>,
+) -> Result<String, Said> {
+    let memory = Memory { texts: texts.clone(), share: Arc::default(), said: Vec::new() };
+    let text = |value: &Given| match value {
+        Given::Number(number) => {
+            let mut fault = None;
+            let built_in = [BUILT_IN.to_owned()];
+            let operands = if operands.is_empty() { &built_in[..] } else { operands };
+            for operand in operands {
+                let Ok(input) = memory.input(parted(operand, &memory).0) else { continue };
+                let Ok(text) = input.text() else { continue };
+                let Ok(tunables) = Tunables::of(text, Some(&input.file)) else { continue };
+                match written(&tunables, name, *number) {
+                    Ok(text) => return Ok(text),
+                    Err(said) => fault = fault.or(Some(said)),
+                }
+            }
+            // Whatever is wrong with the text is said where it is read.
+            fault.map_or_else(|| Ok(number.to_string()), Err)
+        }
+        Given::Text(text) => Ok(text.clone()),
+        _ => Err(Said::plain(Tone::Error, format!("`{name}` takes a number or a text"))),
+    };
+    Ok(values.iter().map(text).collect::<Result<Vec<_>, _>>()?.join(","))
+}
+
+/// A value of the number of this name, in its SI unit, as a text that is read back to the same bits.
+pub(crate) fn written(tunables: &Tunables, name: &str, value: f64) -> Result<String, Said> {
+    let place = tunables.find(name).map_err(|fault| Said {
+        help: fault.help(),
+        ..Said::plain(Tone::Error, fault.to_string())
+    })?;
+    let dimension = tunables.all()[place].dimension.filter(|own| *own != Dimension::NUMBER);
+    let unit = dimension.map_or_else(String::new, |dimension| format!(" {}", si_unit(dimension)));
+    Ok(format!("{value:?}{unit}"))
 }
 
 /// What surrounds a study that Python asks.

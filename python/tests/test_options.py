@@ -142,6 +142,22 @@ def test_a_study_of_a_scene_in_memory_and_of_one_that_is_named_is_the_same():
     assert heavy["modes"] != dashpot.vibrate("reference", drive="ground")["modes"]
 
 
+def test_numbers_that_are_set_are_in_si_units():
+    scene = dashpot.Scene(text='[values]\nstiffness = "80 kN/m"\n' + FOAM.text.replace('"20 kN/m"', '"stiffness"'))
+    modes = [dashpot.vibrate(scene, drive="ground", set={"stiffness": value})["modes"] for value in ("40 kN/m", 40e3, "80 kN/m")]
+    assert modes[0] == modes[1] != modes[2]
+
+
+def test_the_text_of_a_scene_is_no_path():
+    with pytest.raises(ValueError, match=r"Scene\(text="):
+        dashpot.vibrate(FOAM.text)
+
+
+def test_names_that_mean_the_same_are_known_by_each_other():
+    with pytest.raises(TypeError, match="did you mean 'set'"):
+        dashpot.vibrate("reference", drive="ground", values={"head.mass": 20.0})
+
+
 def test_mixed_values_are_swept():
     own = dashpot.sweep("reference", {"head.velocity": ["4 m/s", 5.0]}, [KEY])
     assert (own.parameters["head.velocity"] == [4.0, 5.0]).all()

@@ -108,6 +108,12 @@ fn parameters_of_tests_and_times_have_units() {
         bare.contains("`deformation`: `10` has no unit: write \"10 mm\" or \"10 m\""),
         "{bare}"
     );
+    let of_others = ["rheometer", "models.toml:rubber", "--test", "creep", "--with", "hold=5 ms"];
+    let helped = said(&of_others);
+    let tests = "`hold` is a parameter of `--test creep-recovery,load-hold-unload`";
+    assert!(helped.contains(tests), "{helped}");
+    let misspelt = said(&[&of_test[..], &["retrun-rate=1 mm/s"]].concat());
+    assert!(misspelt.contains("did you mean `return-rate`?"), "{misspelt}");
     let bare = said(&["run", "reference", "--at", "5"]);
     assert!(bare.contains("`5` has no unit: write \"5 ms\" or \"5 s\""), "{bare}");
 }

@@ -22,8 +22,6 @@ const MAX_BYTES: u64 = 64 << 20;
 const NO_FILE: &str = "it is no regular file";
 /// Whether numbers without a unit are refused.
 static IS_STRICT: AtomicBool = AtomicBool::new(false);
-/// Name of the built-in scene.
-const BUILT_IN: &str = "reference";
 
 /// From now on numbers of scenes without a unit are refused.
 pub(crate) fn refuse_bare_numbers() {
@@ -32,7 +30,7 @@ pub(crate) fn refuse_bare_numbers() {
 
 /// The text of a file; of the built-in scene where none is named.
 pub(crate) fn of(path: Option<&Path>) -> Result<Input, StudyError> {
-    read_input(path.unwrap_or(Path::new(BUILT_IN)))
+    read_input(path.unwrap_or(Path::new(dashpot_studies::BUILT_IN)))
 }
 
 /// The built-in scene of this name, a file, or standard input for `-`.

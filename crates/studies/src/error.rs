@@ -4,7 +4,7 @@ use dashpot_analysis::{RunError, rheometer::RheometerError, vibration::Vibration
 use dashpot_dae::{MethodKind as _, SolveError, methods::Tsit45};
 use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
-use dashpot_scene::{Diagnostics, Fault, TableError, suggestion, units::parse_dimension};
+use dashpot_scene::{Diagnostics, Fault, TableError, nearest, suggestion, units::parse_dimension};
 use thiserror::Error;
 
 /// Why a study did not do what it was asked for.
@@ -39,9 +39,9 @@ pub enum StudyError {
     /// More of something than there may be.
     #[error("these are more than {most} {of}")]
     TooMany { of: &'static str, most: usize },
-    /// A parameter that no test has.
-    #[error("no test has a `{name}`; there are {}", .known.join(", "))]
-    UnknownSetting { name: String, known: Vec<&'static str> },
+    /// A parameter that no test which is made has; others may.
+    #[error("none of these tests has a `{name}`; they have {}", .known.join(", "))]
+    UnknownSetting { name: String, known: Vec<&'static str>, of_tests: Vec<&'static str> },
     /// A file with a measured curve that is no table.
     #[error("`{file}`, {fault}")]
     MeasuredTable { file: String, fault: Box<TableError> },
@@ -125,6 +125,12 @@ impl StudyError {
                 Some(unquoted_help(name))
             }
             Self::Unreadable { similar: Some(near), .. } => Some(format!("did you mean `{near}`?")),
+            Self::UnknownSetting { name, of_tests, known } if of_tests.is_empty() => {
+                nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"))
+            }
+            Self::UnknownSetting { name, of_tests, .. } => {
+                Some(format!("`{name}` is a parameter of `--test {}`", of_tests.join(",")))
+            }
             Self::Quantity { fault, .. } => fault.help(),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::Run(

@@ -43,7 +43,7 @@ pub use error::{StudyError, is_unit, unquoted_help};
 pub use object::{Pairs, alike, each_once, list};
 pub use register::STUDIES;
 pub use request::{Given, Kind, OptionInfo, OptionValue, Request, Single};
-pub use study::{Operands, Study};
+pub use study::{BUILT_IN, Operands, Study};
 
 /// Version of the program; also the mark of files that it wrote.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

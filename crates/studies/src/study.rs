@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Name of the built-in scene.
-const BUILT_IN: &str = "reference";
+pub const BUILT_IN: &str = "reference";
 
 /// What a study is asked about.
 #[derive(Debug, Clone, Copy)]

@@ -107,6 +107,14 @@ pub enum VibrationError {
         /// What was given.
         value: f64,
     },
+    /// The highest frequency is not above the lowest.
+    #[error("the highest frequency, {high} Hz, must be above the lowest, {low} Hz")]
+    EmptyRange {
+        /// The lowest frequency \[Hz\].
+        low: f64,
+        /// The highest \[Hz\].
+        high: f64,
+    },
     /// The oscillation has no limit, or cannot be told.
     #[error("there is no steady oscillation at {frequency} Hz: nothing damps it there")]
     Unbounded {

@@ -217,8 +217,11 @@ fn range(settings: &SweepSettings, poles: &[(f64, f64)]) -> Result<[f64; 2], Vib
     if !is_usable(low) {
         return Err(invalid("from", "a positive frequency", low));
     }
-    if !is_usable(high) || high <= low {
-        return Err(invalid("to", "above the lowest frequency", high));
+    if !is_usable(high) {
+        return Err(invalid("to", "a positive frequency", high));
+    }
+    if high <= low {
+        return Err(VibrationError::EmptyRange { low, high });
     }
     Ok([low, high])
 }

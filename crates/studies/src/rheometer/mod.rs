@@ -36,7 +36,7 @@ request! {
     pub RheometerRequest {
         /// Tests [default: all].
         test "NAME,…": Vec<TestName>;
-        /// Sets a parameter of the tests that have it: `--with "hold=5 ms"`; several values, as in
+        /// Sets a parameter of the tests that have it, such as "hold=5 ms"; several values, as in
         /// "rate=1 mm/s,10 mm/s", stand side by side; repeatable.
         with "NAME=VALUE": Vec<Assignment>;
         /// Methods that simulate the network [default: exact for a linear model, else auto].

@@ -57,7 +57,9 @@ pub(super) fn given<'a>(
             let mut known: Vec<&'static str> = asked.iter().map(|own| own.name).collect();
             known.sort_unstable();
             known.dedup();
-            return Err(StudyError::UnknownSetting { name: name.clone(), known });
+            let has = |test: &&str| has_parameter(test, name);
+            let of_tests = PROTOCOLS.iter().map(|own| own.word).filter(has).collect();
+            return Err(StudyError::UnknownSetting { name: name.clone(), known, of_tests });
         };
         let expected = dimension(parameter);
         let expected = if units.is_material { per_material(expected) } else { expected };

@@ -428,7 +428,10 @@ fn what_cannot_be_is_refused_by_name() {
     let text = wrong(SweepSettings { of, ..SweepSettings::default() });
     assert_eq!(text, "`head` is no node that can move; there is only `device`");
     assert_eq!(wrong(range(-1.0, 2.0, 5)), "`from` must be a positive frequency, but it is -1");
-    assert_eq!(wrong(range(3.0, 2.0, 5)), "`to` must be above the lowest frequency, but it is 2");
+    assert_eq!(
+        wrong(range(3.0, 2.0, 5)),
+        "the highest frequency, 2 Hz, must be above the lowest, 3 Hz"
+    );
     assert_eq!(wrong(range(1.0, 2.0, 1)), "`points` must be from 2 to 1000000, but it is 1");
     assert!(vibration.steady(0.0, 1.0).is_err() && vibration.steady(1.0, f64::NAN).is_err());
     let device = network.node_named("device").unwrap();
