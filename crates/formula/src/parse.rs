@@ -5,7 +5,7 @@ use std::{ops::Range, sync::Arc};
 use dashpot_units::{Dimension, Quantity, STANDARD_GRAVITY, UnitError, parse_quantity};
 
 use crate::{
-    FormulaError, FormulaFault, Function,
+    Formula, FormulaError, FormulaFault, Function,
     tree::{Kind, Node, Operator},
     unit::{number, quantity},
 };
@@ -69,7 +69,18 @@ pub fn is_arithmetic(text: &str, is_name: &dyn Fn(&str) -> bool) -> bool {
     false
 }
 
-pub(crate) fn parse(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Node, FormulaError> {
+impl Formula {
+    /// Reads a text in which the words that `is_name` knows are names.
+    ///
+    /// # Errors
+    ///
+    /// [`FormulaError`] where it cannot be read.
+    pub fn parse(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Self, FormulaError> {
+        parse(text, is_name).map(|root| Self { root: Arc::new(root) })
+    }
+}
+
+fn parse(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Node, FormulaError> {
     if text.len() > LONGEST {
         return Err(FormulaError { fault: FormulaFault::TooLong, span: 0..text.len() });
     }

@@ -4,7 +4,7 @@ use std::{fmt, ops::Range, sync::Arc};
 
 use dashpot_units::{Dimension, Quantity, exact_quantity};
 
-use crate::{FormulaError, Function, parse::parse};
+use crate::Function;
 
 /// A formula as it was written: numbers with units, names, operations.
 ///
@@ -49,15 +49,6 @@ impl PartialEq for Node {
 }
 
 impl Formula {
-    /// Reads a text in which the words that `is_name` knows are names.
-    ///
-    /// # Errors
-    ///
-    /// [`FormulaError`] where it cannot be read.
-    pub fn parse(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Self, FormulaError> {
-        parse(text, is_name).map(|root| Self { root: Arc::new(root) })
-    }
-
     /// The names in it, in the order of the text.
     pub fn names(&self) -> Vec<&str> {
         let mut names = Vec::new();

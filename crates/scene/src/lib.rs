@@ -40,22 +40,22 @@ pub use quantities::bare::{BareNumber, BareNumbers};
 pub use quantities::scatter::ScatterFault;
 pub use quantities::values::NamedValue;
 pub use quantities::words::with_units;
-pub use scene::{
-    ReadOptions, RunSettings, Scene, read, read_bytes, read_network, read_shared, text_of_bytes,
-};
+pub use scene::{ReadOptions, RunSettings, Scene, read, read_bytes, read_network, read_shared};
 pub use schema::schema;
 pub use sections::{WISHING, Wish, parse_limits, wishes};
 pub use shipped::{Shipped, reference, references, template, templates};
 pub use tables::{
     DataTable, Heading, LeftOut, Likewise, TableError, TableFault, guarded, table_text, text_cell,
 };
+pub use text::bytes::text_of_bytes;
 pub use text::document::MAX_BYTES;
 pub use text::library::Loader;
 pub use text::nearest::{nearest, suggestion};
 pub use text::source::Source;
 pub use text::visible::{is_control, is_hidden, visible};
 pub use vary::listed::{Listed, ListedFault};
-pub use vary::scatter::{Change, Drawn, Sample, ScatteredNumber};
+pub use vary::scatter::{Change, Drawn, Sample};
+pub use vary::scattered::ScatteredNumber;
 pub use vary::tunable::{Tunable, TunableFault, Tunables};
 pub use vary::variation::{Variation, VariationFault};
 pub use write::limits::with_limits;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use dashpot_analysis::{Accuracy, Choice, Limit, MeasureWish, RunError, SolveSettings};
 use dashpot_network::{Assembly, Network, effects::EFFECTS, parameters::registered};
+use dashpot_units::Quantity;
 
 pub use crate::sections::RunSettings;
 use crate::{
@@ -24,15 +25,14 @@ use crate::{
         Reading, Targets, check_stops, find_duration, read_accuracy, read_effects, read_elements,
         read_limits, read_loads, read_measures, read_nodes, read_run,
     },
-    tables::{DataTable, table_text},
     text::{
-        document::{Entry, Item, MAX_BYTES, parse},
+        bytes::{table_for_scene, text_of_bytes},
+        document::{Entry, Item, parse},
         library::{Library, Loader},
         source::{Place, Source, set_source},
         table::{text_of, unknown_key},
     },
-    units::Quantity,
-    vary::{scatter::ScatteredNumber, set::Settled, together, tunable::TunableFault},
+    vary::{scattered::ScatteredNumber, set::Settled, together, tunable::TunableFault},
 };
 
 /// The sections of a scene and of a file of models.
@@ -214,26 +214,6 @@ pub fn read_bytes(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Checked<Sce
     read(text_of_bytes(bytes, options.file)?, options)
 }
 
-/// The bytes of a file as text.
-///
-/// # Errors
-///
-/// A file that is too large, or not UTF-8.
-pub fn text_of_bytes<'b>(bytes: &'b [u8], file: Option<&str>) -> Result<&'b str, Diagnostics> {
-    let nowhere = || file.map(|name| Arc::new(Source::new(name, "")));
-    if bytes.len() > MAX_BYTES {
-        return Err(Diagnostics::single(Fault::TooLarge { bytes: bytes.len() }, nowhere()));
-    }
-    std::str::from_utf8(bytes).map_err(|error| {
-        if let Some(fault) = table_for_scene(&table_text(bytes), file.unwrap_or("scene")) {
-            return Diagnostics::single(fault, nowhere());
-        }
-        let at = error.valid_up_to();
-        let line = bytes[..at].split(|&byte| byte == b'\n').count();
-        Diagnostics::single(Fault::NotUtf8 { at, line }, nowhere())
-    })
-}
-
 /// Reads the network of a text; `[run]` may be missing, and the network need not compile.
 ///
 /// It is meant for networks that are looked at from outside, at one of their nodes. All that the
@@ -318,20 +298,6 @@ pub(crate) fn library_of(
     let overrides = Overrides::new(&set.named, faults);
     let name = options.file.unwrap_or(UNNAMED);
     Library::load(name, root, options.loader, &overrides, faults)
-}
-
-/// What is wrong with a text that is a table of numbers, as no scene is.
-fn table_for_scene(text: &str, name: &str) -> Option<Fault> {
-    let is_comment = |line: &&str| line.is_empty() || line.starts_with('#');
-    let first = text.lines().map(str::trim).find(|line| !is_comment(line))?;
-    // The first line of TOML is a section or an assignment.
-    if first.starts_with('[') || first.contains('=') {
-        return None;
-    }
-    let table = DataTable::read(text).ok()?;
-    let (_, row) = table.rows().next()?;
-    let is_table = row.len() > 1 && row.iter().all(|field| table.number(field).is_ok());
-    is_table.then(|| Fault::TableForScene { name: name.to_owned() })
 }
 
 /// What is wrong with the path of something that is set.

@@ -2,7 +2,7 @@
 
 use dashpot_units::Dimension;
 
-use crate::{Channel, Measure, Motion, Noise, Reading, Reason};
+use crate::{Channel, Measure, Motion, Noise, Reading, Truth};
 
 /// So many equal samples in a row are no chance.
 pub(crate) const EQUAL: usize = 3;
@@ -13,29 +13,6 @@ const NOISY: usize = 6;
 /// flat as a sixth power leaves its own by less.
 const BESIDE: usize = 8;
 const LEFT: f64 = 3.0;
-
-/// What a value says of the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Truth {
-    /// The truth is no further from it than its error.
-    #[default]
-    Within,
-    /// The truth is at least as large, and how large is not known.
-    AtLeast,
-    /// The truth is at most as large.
-    AtMost,
-}
-
-impl Truth {
-    /// Its word: `at-least` or `at-most`; `None` of a value with an error.
-    pub fn word(self) -> Option<&'static str> {
-        match self {
-            Self::Within => None,
-            Self::AtLeast => Some("at-least"),
-            Self::AtMost => Some("at-most"),
-        }
-    }
-}
 
 /// First sample and length of each stretch in which neighbours are alike.
 fn alike<'v>(
@@ -161,26 +138,5 @@ impl Clipping {
             _ => Truth::AtLeast,
         };
         reading.bounded(truth)
-    }
-}
-
-impl Reading {
-    /// The bound that the value and its error leave, at no time and in no window.
-    pub(crate) fn bounded(self, truth: Truth) -> Self {
-        let value = self.value.map(|value| match truth {
-            Truth::Within => value,
-            Truth::AtLeast if value >= 0.0 => (value - self.error).max(0.0),
-            Truth::AtLeast => value - self.error,
-            Truth::AtMost => value + self.error,
-        });
-        match truth {
-            Truth::Within => self,
-            _ => Self { value, truth, ..Self::new(self.measure, 0.0, 0.0) },
-        }
-    }
-
-    /// The same where no bound is left.
-    pub(crate) fn open(self) -> Self {
-        Self { value: Err(Reason::Clipped), ..Self::new(self.measure, 0.0, 0.0) }
     }
 }

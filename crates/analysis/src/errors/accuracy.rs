@@ -1,7 +1,9 @@
 //! How accurate measures are: error bars from several solutions.
 
-use crate::{Reading, Solution, measures::STANDARD_GRAVITY, report::FIRST_DIGIT};
+use crate::{Reading, Solution, measures::STANDARD_GRAVITY};
 
+/// Error in parts of a value whose first digit is just known.
+pub(crate) const FIRST_DIGIT: f64 = 0.1;
 /// Roundings, in units of the measure's size, that no error bar falls short of: the solutions that
 /// it is taken from may agree by chance.
 const ROUNDINGS: f64 = 64.0;

@@ -6,8 +6,7 @@ use crate::{
     Reading,
     errors::{
         accuracy::excess,
-        refinement::ALWAYS,
-        solved::{Solved, Task},
+        solved::{ALWAYS, Solved, Task},
     },
     solution::{threshold_at, undecided_ends},
 };

@@ -14,7 +14,7 @@ use crate::{
         },
         instants::Instants,
         open_ends::{OpenEnd, cover_switching, cover_threshold},
-        solved::{Balance, Solved, Task},
+        solved::{ALWAYS, Balance, Solved, Task},
     },
     measures::selection::Selected,
     solution::threshold_at,
@@ -23,10 +23,8 @@ use crate::{
 /// At how many tolerances in a row a run may find no way on from one and the same instant before none is
 /// looked for any more.
 const ENDS_ALIKE: usize = 6;
-/// Work of a finer solution in parts of that of the one before, and what is always granted: one that takes
-/// more will not come to an end.
+/// Work of a finer solution in parts of that of the one before: one that takes more will not come to an end.
 const FINER: u64 = 16;
-pub(crate) const ALWAYS: u64 = 10_000_000;
 /// The first tolerance that is tried, 1e-4, in half decades below 1.
 const COARSEST: i32 = 8;
 /// How many solutions are good enough, but for an impact whose end is open, before no finer one is made for its sake.

@@ -17,6 +17,9 @@ use crate::{
     solution::{Known, threshold_at},
 };
 
+/// Work that a further solution is always granted.
+pub(crate) const ALWAYS: u64 = 10_000_000;
+
 /// Work of reading a panel of a signal.
 const READING: u64 = 48;
 

@@ -14,6 +14,7 @@ macro_rules! windowed {
     };
 }
 
+pub(crate) mod asked;
 pub(crate) mod exceedance;
 pub mod hic_search;
 pub(crate) mod powers;

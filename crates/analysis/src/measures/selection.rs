@@ -8,7 +8,7 @@ use dashpot_network::{
 };
 
 use crate::{
-    Limit, RunError, SolveSettings,
+    Limit, RunError,
     impact::contacts,
     measures::{Family, MEASURES, Measure, by_default, of_layers},
     memory::is_large,
@@ -63,26 +63,6 @@ pub(crate) fn select(
         selected.push(Selected { key, name, target, measure: wish.measure });
     }
     Ok(selected)
-}
-
-/// Asks for the measures of these keys, as far as they are not reported anyway.
-///
-/// # Errors
-///
-/// A key of no measure, and what [`SolveSettings`] ask for and the network does not have.
-pub fn ask(
-    assembly: &Assembly,
-    settings: &mut SolveSettings,
-    keys: &[String],
-) -> Result<(), RunError> {
-    let reported = select(assembly, &settings.measures, &settings.limits)?;
-    for key in keys.iter().filter(|key| !reported.iter().any(|own| own.key == **key)) {
-        let known = || reported.iter().map(|own| own.key.clone()).collect();
-        let wish =
-            wish(key).ok_or_else(|| RunError::NoMeasure { key: key.clone(), known: known() });
-        settings.measures.push(wish?);
-    }
-    Ok(())
 }
 
 /// The measure that a key asks for, with its parameters as they are by default, where its word is known.

@@ -7,7 +7,9 @@ pub(crate) mod excerpt;
 pub(crate) mod judged;
 pub(crate) mod partial;
 pub(crate) mod sample;
+pub(crate) mod scatter;
 pub(crate) mod serialized;
+pub(crate) mod unevaluated;
 pub mod verdict;
 pub(crate) mod warning;
 pub(crate) mod zeros;
@@ -23,11 +25,9 @@ use serde::Serialize;
 
 use crate::{
     EventReport, Impact, Ledger, Limit, NoValue, Note, Partial, ScatterReport, Segmentation,
-    Solution, Warning,
+    Solution, Warning, errors::accuracy::FIRST_DIGIT,
 };
 
-/// Error in parts of a value whose first digit is just known.
-pub(crate) const FIRST_DIGIT: f64 = 0.1;
 /// In networks of more elements than this nobody looks for the largest force of all.
 const MOST_ELEMENTS: usize = 200;
 

@@ -3,17 +3,8 @@
 use dashpot_dae::Signal;
 use dashpot_network::Model;
 
-use super::{Obstacle, history::History, lines::Lines, simulation::Rig, solved::solve};
+use super::{Drive, Obstacle, history::History, lines::Lines, rig::Rig, solved::solve};
 use crate::Choice;
-
-/// What was done to a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drive {
-    /// A force \[N\]; its deformation answers.
-    Force,
-    /// A deformation \[m\]; its force answers.
-    Deformation,
-}
 
 /// The answer of a model over time: deformation \[m\] or force \[N\].
 ///

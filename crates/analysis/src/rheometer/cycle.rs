@@ -9,8 +9,9 @@ use super::{
     Figure, Note, Obstacle,
     history::{self, History, Instant},
     perturbation::{CAUTION, SEEDS},
-    simulation::{NAME, Rig, Track, estimated, read},
+    rig::{NAME, Rig},
     solved::solve,
+    track::{Track, estimated, read},
 };
 use crate::{Choice, Signals, Solution, energy::ledger::ledger};
 

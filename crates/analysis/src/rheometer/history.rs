@@ -3,6 +3,15 @@
 use dashpot_dae::{Piece, Waveform};
 use dashpot_rheology::{KelvinForm, MaxwellForm};
 
+/// What was done to a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drive {
+    /// A force \[N\]; its deformation answers.
+    Force,
+    /// A deformation \[m\]; its force answers.
+    Deformation,
+}
+
 /// A point at which the history may jump or bend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {

@@ -6,8 +6,7 @@ use dashpot_numerics::roots::{TO_THE_LAST_BIT, bisect};
 
 use super::{
     Specimen,
-    answer::Drive,
-    history::{History, Instant, Line, weights},
+    history::{Drive, History, Instant, Line, weights},
 };
 
 /// Parts of the time of a branch at which the slope of the answer is looked at for a peak between corners.

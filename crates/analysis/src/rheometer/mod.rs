@@ -26,9 +26,11 @@ mod note;
 mod perturbation;
 mod protocols;
 mod report;
+mod rig;
 mod simulation;
 mod solved;
 mod specimen;
+mod track;
 mod trial;
 
 #[cfg(test)]
@@ -37,7 +39,8 @@ mod tests;
 use dashpot_dae::methods;
 use dashpot_network::parameters::{Described, Kind, Registered, Value, registered};
 
-pub use answer::{Answer, Drive};
+pub use answer::Answer;
+pub use history::Drive;
 pub use note::RheometerError;
 pub use note::{Note, Obstacle};
 pub use protocols::{

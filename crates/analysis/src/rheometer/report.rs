@@ -1,6 +1,6 @@
 //! What a test found, and how far the model object and an independent computation are apart.
 
-use super::{Note, Obstacle, simulation::Track};
+use super::{Note, Obstacle, track::Track};
 use crate::{Column, report::zeros::settled};
 
 /// What a test of a model found: the same quantities from the model object in closed form, where it is

@@ -1,19 +1,17 @@
 //! The independent way: the network around a model, compiled and solved.
 
-use dashpot_dae::{Method, Run, Signal, Silent, System, Waveform};
-use dashpot_network::{Model, Network, Node, first_nonlinear};
+use dashpot_dae::{Method, Run, Silent, System, Waveform};
 
 use super::{
     Obstacle,
-    answer::Drive,
-    history::{History, Instant, Side},
-    perturbation::{CAUTION, SEEDS, perturb, perturbed},
+    history::Instant,
+    perturbation::{CAUTION, SEEDS, perturb},
+    rig::Rig,
     solved,
+    track::{TOLERANCES, Track, difference, estimated, read},
 };
 use crate::Choice;
 
-/// Tolerances of a method that states no bound; its error follows from their differences.
-pub(super) const TOLERANCES: [f64; 3] = [1e-7, 1e-8, 1e-9];
 /// Number of coupled unknowns up to which the exact method takes any number of decades.
 const FEW: usize = 8;
 /// Fastest rate times duration up to which it takes more.
@@ -31,15 +29,6 @@ pub(super) struct Simulation {
     pub(super) reach: Option<f64>,
     /// Why it could not be solved to the end.
     pub(super) obstacle: Option<Obstacle>,
-}
-
-/// An output at the instants.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Track {
-    /// The values; `None` beyond the reach of the simulation.
-    pub(super) values: Vec<Option<f64>>,
-    /// The largest error of the values, as far as it is known.
-    pub(super) error: Option<f64>,
 }
 
 impl Simulation {
@@ -143,109 +132,4 @@ fn check_width(system: &System, reach: f64) -> Result<(), Obstacle> {
         return Err(Obstacle::TooWide { unknowns: system.len(), decades: width.log10() });
     }
     Ok(())
-}
-
-pub(super) fn read(signal: &Signal, reach: f64, instants: &[Instant]) -> Track {
-    let value = |instant: &Instant| {
-        (instant.time <= reach).then(|| match instant.side {
-            Side::After => signal.value(instant.time),
-            Side::Before if instant.time > 0.0 => signal.left_value(instant.time),
-            Side::Before => 0.0,
-        })
-    };
-    Track { values: instants.iter().map(value).collect(), error: signal.error }
-}
-
-/// The finest of three solutions, with the errors that their differences tell.
-pub(super) fn estimated(coarse: &[Track], middle: &[Track], fine: Vec<Track>) -> Vec<Track> {
-    let tracks = fine.into_iter().zip(middle).zip(coarse);
-    let estimated = tracks.map(|((fine, middle), coarse)| {
-        let late = difference(&fine.values, &middle.values);
-        let early = difference(&middle.values, &coarse.values);
-        let error = late.zip(early).map(|(late, early)| (2.0 * late).max(0.5 * early));
-        Track { error, ..fine }
-    });
-    estimated.collect()
-}
-
-/// The largest difference.
-fn difference(one: &[Option<f64>], other: &[Option<f64>]) -> Option<f64> {
-    let pairs = one.iter().zip(other).filter_map(|(one, other)| one.zip(*other));
-    pairs.map(|(one, other)| (one - other).abs()).reduce(f64::max)
-}
-
-/// Name of the connection that a model becomes.
-pub(super) const NAME: &str = "model";
-
-/// Models in a row between a massless head and the ground, and what is read off them.
-#[derive(Debug)]
-pub(super) struct Rig<'a> {
-    chain: Vec<(&'static str, Model)>,
-    drive: Drive,
-    history: &'a History,
-    /// Names of the outputs that are read.
-    pub(super) outputs: Vec<String>,
-}
-
-impl<'a> Rig<'a> {
-    /// A rig for `model`; its one output is the deformation under a given force, or the force under
-    /// a given deformation.
-    pub(super) fn new(model: &Model, drive: Drive, history: &'a History) -> Self {
-        let output = match drive {
-            Drive::Force => format!("{NAME}.deformation"),
-            Drive::Deformation => format!("{NAME}.force"),
-        };
-        Self { chain: vec![(NAME, model.clone())], drive, history, outputs: vec![output] }
-    }
-
-    /// A rig for models in a row, from the head on; its outputs are their deformations.
-    pub(super) fn chain(
-        chain: Vec<(&'static str, Model)>,
-        drive: Drive,
-        history: &'a History,
-    ) -> Self {
-        let outputs = chain.iter().map(|(name, _)| format!("{name}.deformation")).collect();
-        Self { chain, drive, history, outputs }
-    }
-
-    /// The same rig with the models [`perturbed`].
-    pub(super) fn perturbed(&self, seed: u64) -> Self {
-        let chain =
-            self.chain.iter().map(|(name, model)| (*name, perturbed(model, seed))).collect();
-        Self { chain, outputs: self.outputs.clone(), ..*self }
-    }
-
-    /// Whether any of the models is not linear.
-    pub(super) fn is_nonlinear(&self) -> bool {
-        self.chain.iter().any(|(_, model)| first_nonlinear(model).is_some())
-    }
-
-    pub(super) fn history(&self) -> &History {
-        self.history
-    }
-
-    /// The network; `None` where the corners of the history cannot be told apart.
-    pub(super) fn network(&self) -> Option<Network> {
-        let waveform = self.history.waveform()?;
-        let mut network = Network::new();
-        let head = match self.drive {
-            Drive::Force => {
-                let head = network.add_node(Node::massless("head"));
-                network.add_load("force", head, waveform);
-                head
-            }
-            Drive::Deformation => network.add_node(Node::prescribed("head", waveform)),
-        };
-        let mut from = head;
-        for (at, (name, model)) in self.chain.iter().enumerate() {
-            let to = if at + 1 < self.chain.len() {
-                network.add_node(Node::massless(format!("behind {name}")))
-            } else {
-                network.ground()
-            };
-            network.connect(*name, from, to, model.clone());
-            from = to;
-        }
-        Some(network)
-    }
 }

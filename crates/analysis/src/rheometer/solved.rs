@@ -8,7 +8,8 @@ use dashpot_dae::Silent;
 use super::{
     Obstacle,
     history::Instant,
-    simulation::{Rig, TOLERANCES, Track, estimated, read},
+    rig::Rig,
+    track::{TOLERANCES, Track, estimated, read},
 };
 use crate::{Choice, Signals, SolveSettings, Stop, run::solve_bounded, solve_signals};
 

@@ -2,10 +2,10 @@
 
 use super::{
     Specimen,
-    answer::Drive,
-    history::{self, History, Instant, Parts, instants},
+    history::{self, Drive, History, Instant, Parts, instants},
     report::{Computation, Figure, RheometerReport, Series, Setting, series},
-    simulation::{Rig, Simulation},
+    rig::Rig,
+    simulation::Simulation,
 };
 use crate::{Choice, Column};
 

@@ -7,7 +7,8 @@ use crate::{
     MeasureWish, RunError,
     measures::{
         Family, PeakDeformation,
-        selection::{Selected, ask, select},
+        asked::ask,
+        selection::{Selected, select},
     },
 };
 

@@ -22,6 +22,7 @@ mod plain;
 mod products;
 mod propagate;
 mod report;
+mod scatter;
 mod scene_point;
 mod serialized;
 mod shards;

@@ -3,7 +3,7 @@
 use dashpot_numerics::{two_product, two_sum};
 use nalgebra::DMatrix;
 
-use super::{Complex, modal_row::size_of};
+use super::Complex;
 
 /// Size of `M t` up to which the exponential's series is summed in one go.
 pub(super) const REACH: f64 = 2.0;
@@ -199,6 +199,13 @@ fn squared(mut matrix: DMatrix<Complex>, steps: f64, vector: &[Complex]) -> Vec<
         left -= 1.0;
     }
     (power * nalgebra::DVector::from_column_slice(vector)).as_slice().to_vec()
+}
+
+/// `|z|`.
+pub(super) fn size_of(z: Complex) -> f64 {
+    let square = z.re * z.re + z.im * z.im;
+    // Beyond this range of squares digits are lost.
+    if square > 1e-280 && square < 1e280 { square.sqrt() } else { z.norm() }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVectorView};
 
 use super::{
     Complex,
-    block::{Block, exponential_of},
+    block::{Block, exponential_of, size_of},
     coordinates::SpanCoordinates,
     modes::Modes,
     tables::{Bounds, COUNT, DEGREE, at_most},
@@ -213,11 +213,4 @@ pub(super) fn largest_of(modes: &Modes, span: &SpanCoordinates, length: f64) -> 
 /// `|c_j|` of all coordinates.
 pub(super) fn sizes_of(coordinates: &[Complex]) -> Vec<f64> {
     coordinates.iter().map(|&c| size_of(c)).collect()
-}
-
-/// `|z|`.
-pub(super) fn size_of(z: Complex) -> f64 {
-    let square = z.re * z.re + z.im * z.im;
-    // Beyond this range of squares digits are lost.
-    if square > 1e-280 && square < 1e280 { square.sqrt() } else { z.norm() }
 }

@@ -6,9 +6,9 @@ use dashpot_numerics::{chebyshev::Coefficients, two_sum};
 
 use super::{
     Complex,
-    block::Block,
+    block::{Block, size_of},
     coordinates::SpanCoordinates,
-    modal_row::{ModalRow, coordinates_at, size_of, sizes_of},
+    modal_row::{ModalRow, coordinates_at, sizes_of},
     modes::Modes,
     tables::{COUNT, Course, LINKS, Line, Share, Tables, step_of, width_of},
 };

@@ -6,9 +6,8 @@ use dashpot_dae::UnknownKind;
 
 use super::{
     mesh::{Mesh, Solution},
-    motion::Numbers,
     row::{Row, RowSum, Rows, Scalar},
-    structure::Structure,
+    structure::{Numbers, Structure},
     unknowns::{Draft, Places},
 };
 

@@ -10,7 +10,7 @@ use super::{
     row::{Combination, Row, RowSum, Rows, Scalar},
     scales::Scales,
     springs::SpringBalance,
-    structure::{Edge, Structure},
+    structure::{Numbers, Structure},
     unknowns::{Inputs, Places},
 };
 use crate::elements::Law;
@@ -34,14 +34,6 @@ pub(super) struct Motion<T = DoubleDouble> {
 const SMALL: usize = 200;
 /// Beyond, only places with at most this many links, and clusters of this many bodies, are.
 const MOST_LINKS: usize = 16;
-
-/// The numbers of a network as the coefficients of rows.
-pub(super) struct Numbers<'a, T> {
-    /// The constant of a spring or dashpot.
-    pub(super) slope: &'a dyn Fn(&Edge) -> T,
-    /// The mass of a body, which is this many kilograms.
-    pub(super) mass: &'a dyn Fn(usize, f64) -> T,
-}
 
 /// What the rows are built from.
 pub(super) struct Given<'a, T> {

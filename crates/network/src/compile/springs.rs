@@ -4,9 +4,8 @@ use dashpot_dae::UnknownKind;
 
 use super::{
     mesh::{Mesh, Solution},
-    motion::Numbers,
     row::{Combination, Row, RowSum, Scalar},
-    structure::Structure,
+    structure::{Numbers, Structure},
     unknowns::{Draft, Inputs, Places},
 };
 

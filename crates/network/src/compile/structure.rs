@@ -32,6 +32,14 @@ pub(super) struct Edge {
     pub(super) offset: f64,
 }
 
+/// The numbers of a network as the coefficients of rows.
+pub(super) struct Numbers<'a, T> {
+    /// The constant of a spring or dashpot.
+    pub(super) slope: &'a dyn Fn(&Edge) -> T,
+    /// The mass of a body, which is this many kilograms.
+    pub(super) mass: &'a dyn Fn(usize, f64) -> T,
+}
+
 /// Massless bodies that dashpots join.
 #[derive(Debug, Clone)]
 pub(super) struct Cluster {

@@ -5,21 +5,16 @@ use std::collections::HashMap;
 use dashpot_network::{
     HeldTable, NetworkError, NetworkErrors, NetworkWarning, Subject, parameters::Dimension,
 };
+use dashpot_units::format_short;
 
 use crate::{
     diagnostics::fault::Fault,
     sections::Reading,
     text::{
-        document::{Content, Entry, Item},
+        document::{Content, Entry, Item, value_of},
         source::Place,
     },
-    units::format_short,
 };
-
-/// The value of a key in an entry that is a table.
-pub(crate) fn value_of<'d>(entry: &'d Entry, key: &str) -> Option<&'d Item> {
-    entry.item.table()?.iter().find(|own| own.key == key).map(|own| &own.item)
-}
 
 /// The entries of a scene by what they describe.
 struct Entries<'d> {

@@ -9,18 +9,17 @@ use dashpot_network::{
     parameters::{Dimension, Kind as _, ParameterKind, registered},
     waveforms::WAVEFORMS,
 };
+use dashpot_units::{STANDARD_GRAVITY, format_short};
 
-use super::network_faults::value_of;
 use crate::{
     diagnostics::fault::Fault,
     models::notes::{ModelNote, Remark},
     sections::Reading,
     text::{
-        document::{Content, Entry, Item},
+        document::{Content, Entry, Item, value_of},
         library::tables::{file_named, is_table},
         source::Place,
     },
-    units::{STANDARD_GRAVITY, format_short},
 };
 
 /// Warns of what is odd in a scene that has been read without errors.

@@ -8,6 +8,7 @@ use dashpot_network::{
     parameters::{Dimension, InvalidParameter},
 };
 use dashpot_signal::{ChannelFault, SettingsFault};
+use dashpot_units::UnitError;
 use thiserror::Error;
 
 use super::fault_help::{bad_value_help, unknown_name_help, unreadable_help};
@@ -20,7 +21,6 @@ use crate::{
     },
     tables::TableFault,
     text::nearest::{list, suggestion},
-    units::UnitError,
 };
 
 /// One thing that is wrong, or odd, in a scene.

@@ -1,11 +1,11 @@
 //! How to put right what is wrong with a quantity or a name.
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{UnitError, foreign, meant_as, parse_dimension, parse_quantity};
 
 use crate::{
     quantities::words::{described, example},
     text::nearest::suggestion,
-    units::{UnitError, foreign, meant_as, parse_dimension, parse_quantity},
 };
 
 /// What to write in place of degrees Celsius in a product.

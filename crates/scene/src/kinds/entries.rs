@@ -5,7 +5,8 @@ use dashpot_network::parameters::{Parameter, Value};
 use super::{are_file, is_points, parameters::KindReader};
 use crate::{
     diagnostics::fault::Fault,
-    quantities::basis::{Basis, SIZE, Size, is_size},
+    quantities::basis::{Basis, SIZE, is_size},
+    quantities::sizes::Size,
     text::{
         document::{Entry, Item},
         library::tables::names_file,

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind};
+use dashpot_units::{UnitError, format_short, parse_quantity, si_unit};
 
 use super::parameters::KindReader;
 use crate::{
@@ -11,11 +12,10 @@ use crate::{
     tables::{DataTable, Field, TableFault, is_no_unit, quantity_in},
     text::{
         document::{Content, Item},
-        library::tables::TableFile,
         source::Place,
         table::text_of,
+        table_file::TableFile,
     },
-    units::{UnitError, format_short, parse_quantity, si_unit},
     vary::variation::Written,
 };
 

@@ -7,7 +7,7 @@ use dashpot_network::parameters::{CurveRole, Dimension, Parameter, ParameterKind
 use super::{
     file_units::{misread_unit, unit},
     parameters::KindReader,
-    records::{CHANNEL, Treatment},
+    records::{CHANNEL, FileRows, Treatment},
 };
 use crate::{
     curves::{CurveChange, Difference, Fitted, Row, fit, outward, split, turning_row, unloading},
@@ -17,9 +17,10 @@ use crate::{
     tables::{DataTable, LeftOut, Samples, Scale, TableError, TableFault},
     text::{
         document::{Content, Item},
-        library::tables::{FILE, SCALE, TableFile},
+        library::tables::{FILE, SCALE},
         source::Place,
         table::{Table, text_of, wrong_type},
+        table_file::TableFile,
     },
 };
 
@@ -32,15 +33,6 @@ struct Wishes<'i> {
     scale: Option<f64>,
     /// Which channel of a test in ISO-MME.
     channel: Option<&'i Item>,
-}
-
-/// Rows of two columns of a file, with where they are from.
-#[derive(Clone)]
-pub(super) struct FileRows<'d> {
-    pub(super) file: &'d TableFile,
-    pub(super) rows: Vec<Row>,
-    /// The place of the file's name.
-    pub(super) place: Place,
 }
 
 /// What tells of faults in a file.

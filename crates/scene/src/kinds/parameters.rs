@@ -5,7 +5,7 @@ use dashpot_network::parameters::{Dimension, InvalidParameter, Parameter, Regist
 use super::Example;
 use crate::{
     diagnostics::fault::Fault,
-    quantities::{basis::EnclosingPad, quantity::Quantities},
+    quantities::{quantity::Quantities, sizes::EnclosingPad},
     text::{
         document::{Content, Item},
         source::Place,

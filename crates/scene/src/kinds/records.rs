@@ -2,19 +2,19 @@
 
 use dashpot_network::parameters::{Dimension, Parameter, ParameterKind, Range};
 use dashpot_signal::{Cfc, Channel, Removal, Settings, iso_mme::MmeChannel};
+use dashpot_units::format_short;
 
-use super::{files::FileRows, parameters::KindReader};
+use super::parameters::KindReader;
 use crate::{
     curves::Row,
     diagnostics::fault::Fault,
     models::notes::{Remark, RestRemoved},
     text::{
         document::Item,
-        library::tables::TableFile,
         source::Place,
         table::{Table, text_of},
+        table_file::TableFile,
     },
-    units::format_short,
 };
 
 /// The keys of a record beside its file.
@@ -25,6 +25,15 @@ pub(crate) const CHANNEL: &str = "channel";
 
 /// What a record holds before the run is told above this part of its peak.
 const EARLY: f64 = 0.05;
+
+/// Rows of two columns of a file, with where they are from.
+#[derive(Clone)]
+pub(super) struct FileRows<'d> {
+    pub(super) file: &'d TableFile,
+    pub(super) rows: Vec<Row>,
+    /// The place of the file's name.
+    pub(super) place: Place,
+}
 
 /// What becomes of a record before it is a function of time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -3,13 +3,15 @@
 use dashpot_network::parameters::{
     Dimension, Formula, Parameter, ParameterKind, Range, Value, WindowWish,
 };
+use dashpot_units::parse_quantity;
 
 use super::{is_points, parameters::KindReader};
 use crate::{
     diagnostics::fault::Fault,
     quantities::{
         basis::Basis,
-        quantity::{Definition, Quantities, Values},
+        named::{Definition, Values},
+        quantity::Quantities,
     },
     text::{
         document::{Content, Item},
@@ -17,7 +19,6 @@ use crate::{
         source::Place,
         table::{text_of, wrong_type},
     },
-    units::parse_quantity,
 };
 
 impl KindReader<'_> {

@@ -12,7 +12,8 @@ use super::{BRANCH_KEYS, LOADING, moduli::loading};
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, parameters::KindReader},
-    quantities::basis::{AREA, Basis, EnclosingPad, Loading, Pad, SIZE, Size, is_sized},
+    quantities::basis::{AREA, Basis, Loading, Pad, SIZE, is_sized},
+    quantities::sizes::{EnclosingPad, Size},
     text::{
         document::{Content, Entry, Item},
         library::{Library, models::ModelSection},

@@ -16,8 +16,9 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::{Example, form, parameters::KindReader},
     quantities::{
-        basis::{Basis, Extent, SIZE, fits_material, is_size},
+        basis::{Basis, SIZE, fits_material, is_size},
         quantity::Quantities,
+        sizes::Extent,
     },
     text::{
         document::Entry,

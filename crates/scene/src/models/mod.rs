@@ -33,7 +33,8 @@ use self::{
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::model_words,
-    quantities::basis::{Basis, Extent, Pad, SIZE, is_sized},
+    quantities::basis::{Basis, Pad, SIZE, is_sized},
+    quantities::sizes::Extent,
     text::{
         document::{Content, Entry, Item},
         library::{

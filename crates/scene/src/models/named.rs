@@ -9,20 +9,19 @@ use super::{
     notes::{ModelNote, Remark},
 };
 use crate::{
-    check::network_faults::value_of,
     diagnostics::{Checked, Diagnostic, Diagnostics, Faults, fault::Fault},
     quantities::bare::BareNumbers,
     scene::{ReadOptions, checked, load},
     sections::ELEMENT_KEYS,
     text::{
-        document::{Content, Entry, Item},
+        document::{Content, Entry, Item, value_of},
         library::{
             Library,
             models::{MODEL_SECTIONS, ModelSection},
         },
         source::Source,
     },
-    vary::scatter::ScatteredNumber,
+    vary::scattered::ScatteredNumber,
 };
 
 /// A two-terminal model that a text gives a name.

@@ -18,7 +18,7 @@ use super::{
 use crate::{
     diagnostics::fault::Fault,
     kinds::{is_model, parameters::KindReader},
-    quantities::basis::Extent,
+    quantities::sizes::Extent,
     text::{
         document::{Entry, Item},
         library::models::ModelSection,

@@ -17,7 +17,7 @@ use super::{
 use crate::{
     diagnostics::{Faults, fault::Fault},
     kinds::has_model,
-    quantities::basis::Extent,
+    quantities::sizes::Extent,
     text::{
         document::{Entry, Item},
         library::models::{ModelSection, Reference},

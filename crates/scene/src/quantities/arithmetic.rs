@@ -2,15 +2,13 @@
 
 use dashpot_formula::{Formula, FormulaError, FormulaFault, is_arithmetic};
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, parse_quantity};
 
 use super::{
-    quantity::{Definition, Values},
+    named::{Definition, Values},
     words::example_text,
 };
-use crate::{
-    diagnostics::{Faults, fault::Fault},
-    units::{Quantity, parse_quantity},
-};
+use crate::diagnostics::{Faults, fault::Fault};
 
 /// The formula in `text` over named values; `None` where it is a quantity, the name of a value, or meant to be one.
 pub(crate) fn formula(

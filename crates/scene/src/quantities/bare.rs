@@ -1,9 +1,8 @@
 //! Numbers without a unit in the place of what has one in the scene.
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{parse_quantity, si_unit};
 use thiserror::Error;
-
-use crate::units::{parse_quantity, si_unit};
 
 /// What becomes of numbers without a unit where one is expected. They are in SI units.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -4,9 +4,10 @@
 use std::ops::RangeInclusive;
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::exact_quantity;
 
 use super::basis::{AREA, DENSITY};
-use crate::{diagnostics::fault::Fault, units::exact_quantity};
+use crate::diagnostics::fault::Fault;
 
 /// What a bare number usually is.
 struct Usual {

@@ -1,45 +1,23 @@
 //! Quantities where they stand: numbers, texts with units, and named values.
 
-use std::{cell::Cell, collections::HashMap};
-
 use dashpot_formula::{Formula, FormulaError, Variable};
 use dashpot_network::parameters::{Dimension, Range};
+use dashpot_units::{Quantity, UnitError, format_short, parse_quantity, si_unit};
 
 use super::{
     arithmetic::{self, formula},
     basis::{Basis, powers},
+    named::{Definition, Values},
     plausible,
 };
 use crate::{
     diagnostics::{Faults, fault::Fault},
     text::{
         document::{Content, Item},
-        library::tables::Files,
         source::Place,
+        table_file::Files,
     },
-    units::{Quantity, UnitError, format_short, parse_quantity, si_unit},
 };
-
-/// The named values of one document.
-pub(crate) type Values = HashMap<String, Known>;
-
-/// What a name stands for.
-#[derive(Debug)]
-pub(crate) struct Known {
-    /// The quantity, `None` where it is faulty.
-    pub(crate) quantity: Option<Quantity>,
-    /// Where it comes from in the end.
-    pub(crate) definition: Option<Definition>,
-    /// Whether something refers to it.
-    pub(crate) is_used: Cell<bool>,
-}
-
-/// What stands for a name: a text or number, and its place.
-#[derive(Debug, Clone)]
-pub(crate) struct Definition {
-    pub(crate) text: String,
-    pub(crate) place: Place,
-}
 
 /// What to do where only an acceleration is known.
 const MOTION_HELP: &str = "a motion is a displacement: write `acceleration` in place of `motion`";

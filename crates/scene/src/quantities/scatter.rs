@@ -1,12 +1,10 @@
 //! Numbers with scatter: `20 ± 2 MN/m`.
 
 use dashpot_formula::is_arithmetic;
+use dashpot_units::{UnitError, parse_quantity};
 use thiserror::Error;
 
-use crate::{
-    units::{UnitError, parse_quantity},
-    vary::variation::{Written, handy},
-};
+use crate::vary::variation::{Written, handy};
 
 /// The sign between a mean and its standard deviation, and what may be typed in its place.
 const SIGNS: [&str; 2] = ["±", "+-"];

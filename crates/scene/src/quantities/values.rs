@@ -6,11 +6,12 @@ use std::{
 };
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, UnitError, parse_quantity};
 
 use super::{
     arithmetic::{constant, formula, note},
     bare::BareNumber,
-    quantity::{Definition, Known, Values},
+    named::{Definition, Known, Values},
     words::example_text,
 };
 use crate::{
@@ -20,7 +21,6 @@ use crate::{
         source::{Place, set_source},
         table::{entries_of, wrong_type},
     },
-    units::{Quantity, UnitError, parse_quantity},
     vary::variation::Written,
 };
 

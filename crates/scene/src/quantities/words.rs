@@ -1,9 +1,9 @@
 //! Dimensions in words, and how quantities of them are written.
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{STANDARD_GRAVITY, format_short, si_unit};
 
 use super::basis::{AREA, Basis, DENSITY};
-use crate::units::{STANDARD_GRAVITY, format_short, si_unit};
 
 /// A dimension by its name and unit, with an article: "a stiffness (N/m)".
 pub(crate) fn described(dimension: Dimension) -> String {

@@ -1,45 +1,11 @@
 //! `duration = "auto"`: the length of a run that the scene does not say.
 
 use dashpot_analysis::{SolveSettings, found_duration};
-use dashpot_network::{
-    Network,
-    parameters::{Dimension, InvalidParameter},
-};
+use dashpot_network::{Network, parameters::Dimension};
+use dashpot_units::format_short;
 
 use super::{Reading, RunSettings};
-use crate::{
-    diagnostics::fault::Fault,
-    text::{document::Entry, table::Table},
-    units::format_short,
-};
-
-/// What stands for a length that is to be found.
-const AUTO: &str = "auto";
-
-/// The longest run \[s\] that is found, unless more is allowed.
-const AT_MOST: f64 = 1.0;
-
-/// The longest run \[s\] that may be found, where `duration` asks for it; it is an error beside a length that is given.
-pub(super) fn read_at_most(
-    reading: &Reading<'_>,
-    table: &Table<'_>,
-    duration: Option<&Entry>,
-) -> Option<f64> {
-    let is_auto = duration.is_some_and(|own| own.item.text().map(str::trim) == Some(AUTO));
-    let Some(own) = table.take("at-most") else { return is_auto.then_some(AT_MOST) };
-    if !is_auto {
-        let message = "`at-most` bounds a length that is to be found, and `duration` gives one";
-        let help = "write `duration = \"auto\"`, or remove `at-most`";
-        reading.faults.error(own.key_place, Fault::odd(message, help));
-        return None;
-    }
-    let check = |time: f64| {
-        let invalid = || InvalidParameter::new("at-most", "positive", time);
-        if time > 0.0 { Ok(()) } else { Err(invalid()) }
-    };
-    let quantities = reading.quantities().of("run.at-most");
-    quantities.read_checked(&own.item, Dimension::TIME, check)
-}
+use crate::diagnostics::fault::Fault;
 
 /// The length \[s\] that the network needs, at most `at_most` \[s\]; where that is too short for it, or a run
 /// that is tried fails, the scene is told.

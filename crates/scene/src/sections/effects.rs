@@ -7,18 +7,17 @@ use dashpot_network::{
     effects::{EFFECTS, EffectEntry},
     parameters::{Parameter, ParameterKind, registered},
 };
+use dashpot_units::{parse_quantity, si_unit};
 
 use super::Reading;
 use crate::{
-    check::network_faults::value_of,
     diagnostics::fault::Fault,
     kinds::{Example, parameters::KindReader},
     quantities::quantity::{Quantities, Target},
     text::{
-        document::{Content, Entry, Item},
+        document::{Content, Entry, Item, value_of},
         table::unknown_key,
     },
-    units::{parse_quantity, si_unit},
 };
 
 /// Reads the effects into `network`.

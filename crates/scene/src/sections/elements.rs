@@ -10,7 +10,8 @@ use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
     models::{LOADING, ModelReader, Read},
-    quantities::basis::{AREA, DENSITY, SIZE, Size},
+    quantities::basis::{AREA, DENSITY, SIZE},
+    quantities::sizes::Size,
     text::{
         document::{Content, Entry, Item},
         table::{Table, check_name, list_of, text_of, wrong_type},

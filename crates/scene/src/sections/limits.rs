@@ -6,6 +6,7 @@ use dashpot_analysis::{
     measures::{MEASURES, MeasureEntry},
 };
 use dashpot_network::parameters::{Dimension, registered};
+use dashpot_units::{Unit, nearest, parse_dimension, parse_quantity};
 
 use super::{
     Reading, Targets,
@@ -22,7 +23,6 @@ use crate::{
         document::{Content, Entry, Item},
         table::{Table, one_or_many, text_of, wrong_type},
     },
-    units::{Unit, nearest, parse_dimension, parse_quantity},
     vary::variation::Written,
 };
 

@@ -6,8 +6,9 @@ use dashpot_network::{
     Assembly,
     parameters::{Dimension, InvalidParameter, Range},
 };
+use dashpot_units::parse_dimension;
 
-use super::{Reading, duration::read_at_most};
+use super::Reading;
 use crate::{
     diagnostics::fault::Fault,
     quantities::arithmetic::names,
@@ -16,7 +17,6 @@ use crate::{
         source::Place,
         table::{Table, list_of, one_or_many, text_of, wrong_type},
     },
-    units::parse_dimension,
 };
 
 /// So many points of the output grid are written where the scene does not say.
@@ -24,6 +24,12 @@ const SAMPLES: usize = 501;
 
 /// The output grid has at most so many points.
 const MAX_SAMPLES: usize = 10_000_000;
+
+/// What stands for a length that is to be found.
+const AUTO: &str = "auto";
+
+/// The longest run \[s\] that is found, unless more is allowed.
+const AT_MOST: f64 = 1.0;
 
 /// How a scene is to be run.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,4 +207,22 @@ pub(crate) fn check_stops(
         Some(Stop { output: name.to_owned(), level, direction: stop.direction })
     });
     found.collect()
+}
+
+/// The longest run \[s\] that may be found, where `duration` asks for it; it is an error beside a length that is given.
+fn read_at_most(reading: &Reading<'_>, table: &Table<'_>, duration: Option<&Entry>) -> Option<f64> {
+    let is_auto = duration.is_some_and(|own| own.item.text().map(str::trim) == Some(AUTO));
+    let Some(own) = table.take("at-most") else { return is_auto.then_some(AT_MOST) };
+    if !is_auto {
+        let message = "`at-most` bounds a length that is to be found, and `duration` gives one";
+        let help = "write `duration = \"auto\"`, or remove `at-most`";
+        reading.faults.error(own.key_place, Fault::odd(message, help));
+        return None;
+    }
+    let check = |time: f64| {
+        let invalid = || InvalidParameter::new("at-most", "positive", time);
+        if time > 0.0 { Ok(()) } else { Err(invalid()) }
+    };
+    let quantities = reading.quantities().of("run.at-most");
+    quantities.read_checked(&own.item, Dimension::TIME, check)
 }

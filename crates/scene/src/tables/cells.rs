@@ -2,8 +2,9 @@
 
 use std::{borrow::Cow, ops::Range};
 
+use dashpot_units::{UnitError, parse_dimension, parse_quantity};
+
 use super::{fault::TableFault, guard::unguarded};
-use crate::units::{UnitError, parse_dimension, parse_quantity};
 
 /// What stands between the fields of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

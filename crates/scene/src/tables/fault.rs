@@ -3,9 +3,10 @@
 use std::{fmt, mem, ops::Range};
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::UnitError;
 use thiserror::Error;
 
-use crate::{diagnostics::fault_help::comma_help, quantities::words::described, units::UnitError};
+use crate::{diagnostics::fault_help::comma_help, quantities::words::described};
 
 /// A table may have so many rows of numbers.
 pub(crate) const MOST_ROWS: usize = 1_000_000;

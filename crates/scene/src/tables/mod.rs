@@ -14,13 +14,13 @@ mod left_out;
 use std::{f64::consts::TAU, ops::Range};
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, UnitError, parse_quantity};
 
 use self::{
     cells::{Decimal, spelt, split},
     fault::MOST_ROWS,
     layout::{Layout, check_columns, decimal, lines},
 };
-use crate::units::{Quantity, UnitError, parse_quantity};
 
 pub(crate) use self::cells::{Field, is_no_unit};
 pub use self::{

@@ -1,6 +1,6 @@
 //! The word that was probably meant.
 
-use crate::units;
+use dashpot_units as units;
 
 /// How many known words a message shows.
 const SHOWN: usize = 20;

@@ -2,13 +2,11 @@
 
 use std::mem;
 
+use dashpot_units::{UnitError, parse_quantity};
 use thiserror::Error;
 
 use super::variation::Variation;
-use crate::{
-    tables::{DataTable, TableError, TableFault, is_no_unit},
-    units::{UnitError, parse_quantity},
-};
+use crate::tables::{DataTable, TableError, TableFault, is_no_unit};
 
 /// A table has at most so many rows.
 const MOST: usize = 1_000_000;

@@ -4,6 +4,7 @@ mod filled;
 pub(crate) mod listed;
 mod sample;
 pub(crate) mod scatter;
+pub(crate) mod scattered;
 pub(crate) mod set;
 pub(crate) mod together;
 pub(crate) mod tunable;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, parse_quantity};
 
 use super::tunable::Tunables;
 use crate::{
@@ -12,7 +13,6 @@ use crate::{
         source::{Place, Source},
         table::unknown_key,
     },
-    units::{Quantity, parse_quantity},
 };
 
 /// The section, and its only key.

@@ -1,12 +1,10 @@
 //! What values a parameter takes in a sweep, from a text such as `K2=5..30 MN/m,26,log`.
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, UnitError, parse_quantity, si_unit};
 use thiserror::Error;
 
-use crate::{
-    text::nearest::nearest,
-    units::{Quantity, UnitError, parse_quantity, si_unit},
-};
+use crate::text::nearest::nearest;
 
 /// Values in a range where their number is not given.
 const USUAL: usize = 11;

@@ -12,11 +12,9 @@ use dashpot_network::{
     parameters::{Dimension, Formula, Parameter, ParameterKind, Value, WindowWish},
 };
 use dashpot_rheology::{Branch, Tree};
+use dashpot_units::{Quantity, exact_quantity, tidy};
 
-use crate::{
-    quantities::basis::{Basis, is_size},
-    units::{Quantity, exact_quantity, tidy},
-};
+use crate::quantities::basis::{Basis, is_size};
 
 /// A model as an inline table, for instance `{ parallel = [{ spring = "20 MN/m" }, …] }`.
 ///

@@ -13,6 +13,7 @@ use dashpot_network::{
     waveforms::Recognized,
 };
 use dashpot_rheology::Tree;
+use dashpot_units::{exact_quantity, tidy};
 use thiserror::Error;
 
 use super::{
@@ -21,7 +22,6 @@ use super::{
 use crate::{
     quantities::basis::{AREA, Basis, DENSITY},
     sections::RunSettings,
-    units::{exact_quantity, tidy},
 };
 
 /// What a scene cannot say.

@@ -10,12 +10,12 @@ use crate::{
     rheometer::{
         Computation, FROM_THE_MODEL, Figure, Note, ProtocolKind, RheometerError, RheometerReport,
         Setting, Specimen, Tested,
-        answer::Drive,
         cycle::{Cycle, Loop, Simulated},
-        history::{self, History, Instant},
+        history::{self, Drive, History, Instant},
         report::series,
-        simulation::{NAME, Rig, TOLERANCES},
+        rig::{NAME, Rig},
         solved::solve,
+        track::TOLERANCES,
     },
 };
 

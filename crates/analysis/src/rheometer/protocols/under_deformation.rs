@@ -9,8 +9,7 @@ use crate::{
     Choice,
     rheometer::{
         FROM_THE_MODEL, Note, ProtocolKind, RheometerError, Specimen, Tested,
-        answer::Drive,
-        history::{History, Instant},
+        history::{Drive, History, Instant},
         trial::Trial,
     },
 };

@@ -10,9 +10,8 @@ use crate::{
     Choice,
     rheometer::{
         Figure, ProtocolKind, RheometerReport, Specimen, Tested,
-        answer::Drive,
         cycle::ROUNDING,
-        history::{History, Instant},
+        history::{Drive, History, Instant},
         trial::Trial,
     },
 };

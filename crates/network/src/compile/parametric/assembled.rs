@@ -16,9 +16,10 @@ use crate::{
     compile::{
         assemble::Graph,
         bodies::Bodies,
-        motion::{Motion, Numbers},
+        motion::Motion,
         outputs::{composed, softest},
         row::{Combination, Row, RowSum},
+        structure::Numbers,
         unknowns::{self, Draft, Inputs, Places},
     },
     elements::Law,

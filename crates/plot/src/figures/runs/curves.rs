@@ -1,18 +1,12 @@
 //! The curves of a figure of runs: which are shown, in which colours and patterns.
 
-use super::{Of, RunRank, RunSeries};
+use super::{Of, RunRank, RunSeries, series::Quantity};
 use crate::{Pattern, Series, theme::COLOURS};
 
 /// The widest gap that is shown, as a part of the largest deformation.
 const WIDEST: f64 = 0.5;
 /// Curves beyond these in one figure cannot be told apart.
 const MOST_CURVES: usize = 6;
-
-/// One quantity of all runs: a name and, per run, its curve in SI units.
-pub(super) struct Quantity {
-    pub(super) name: String,
-    pub(super) curves: Vec<Vec<(f64, f64)>>,
-}
 
 /// The quantities of largest magnitude, in their order, and a remark when some are left out.
 pub(super) fn largest(mut quantities: Vec<Quantity>, of: Of) -> (Vec<Quantity>, String) {

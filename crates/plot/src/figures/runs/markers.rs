@@ -1,7 +1,7 @@
 //! Markers of runs: on their curves, and one for all that happens at one place.
 
 use super::super::unit::Unit;
-use super::curves::Quantity;
+use super::series::{Quantity, listed};
 use super::{Of, RunMarker, RunMarkerKind, RunSeries};
 use crate::Marker;
 use crate::text_metrics::columns;
@@ -12,9 +12,6 @@ const NEAR: f64 = 0.004;
 const LONGEST: usize = 64;
 /// Samples this near to a marker in time, relative to it, are of its instant: the two sides of a jump.
 const INSTANT: f64 = 1e-11;
-
-/// So many names stand in one text.
-pub(super) const MOST_LISTED: usize = 3;
 
 /// What is marked at one place.
 struct Spot<'a> {
@@ -138,15 +135,6 @@ fn extent(values: impl Iterator<Item = f64>) -> f64 {
         .filter(|v| v.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     (high - low).max(0.0)
-}
-
-/// Names in one text; of many the first ones and how many more there are.
-pub(super) fn listed(names: &[&str]) -> String {
-    const LAST: usize = MOST_LISTED - 1;
-    match names.len() {
-        0..=MOST_LISTED => names.join(", "),
-        count => format!("{} and {} more", names[..LAST].join(", "), count - LAST),
-    }
 }
 
 /// The value at `at`, on the straight line between its neighbours; `None` outside the samples.

@@ -1,18 +1,7 @@
 //! Measured curves over those of runs.
 
-use super::{super::unit::Unit, Of, RunSeries};
+use super::{super::unit::Unit, MeasuredSeries, Of, RunSeries};
 use crate::{Pattern, Series};
-
-/// A curve that was measured, over time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeasuredSeries {
-    /// Name in the legend, as in `measured, drop.csv`.
-    pub name: String,
-    /// What was measured, which decides in which figure it stands.
-    pub of: Of,
-    /// (Time \[s\], value in SI units), in order of time, which counts as that of the runs.
-    pub points: Vec<(f64, f64)>,
-}
 
 /// The measured curves of a figure of `y` over `x`, as far as the runs are shown.
 pub(super) fn measured(runs: &[RunSeries], (x, y): (Of, Of)) -> Vec<MeasuredSeries> {

@@ -17,10 +17,9 @@ use self::{
 };
 use crate::{Chart, Direction};
 
-pub use measured::MeasuredSeries;
 pub use series::{
-    ElementSeries, EnergySeries, NodeSeries, Of, RunLimit, RunMarker, RunMarkerKind, RunRank,
-    RunSeries,
+    ElementSeries, EnergySeries, MeasuredSeries, NodeSeries, Of, RunLimit, RunMarker,
+    RunMarkerKind, RunRank, RunSeries,
 };
 
 use RunMarkerKind::{DeepestPoint, PeakForce, TensionStart};

@@ -3,7 +3,7 @@
 use super::{
     super::unit::{self, Unit},
     RunSeries,
-    markers::MOST_LISTED,
+    series::MOST_LISTED,
 };
 
 /// What stands below a heading: which part of the run is shown, what is left out and cut off.

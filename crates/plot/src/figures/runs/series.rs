@@ -1,10 +1,10 @@
 //! The plain numbers of one run that figures are drawn from.
 
 use super::super::unit::{self, Unit};
-use super::MeasuredSeries;
-use super::curves::Quantity;
-use super::markers::listed;
 use crate::{Direction, ReferenceLine};
+
+/// So many names stand in one text.
+pub(super) const MOST_LISTED: usize = 3;
 
 /// Sampled results of one run, in SI units.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -117,6 +117,23 @@ pub enum RunMarkerKind {
     DeepestPoint,
     /// The first time at which the element pulls.
     TensionStart,
+}
+
+/// A curve that was measured, over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSeries {
+    /// Name in the legend, as in `measured, drop.csv`.
+    pub name: String,
+    /// What was measured, which decides in which figure it stands.
+    pub of: Of,
+    /// (Time \[s\], value in SI units), in order of time, which counts as that of the runs.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// One quantity of all runs: a name and, per run, its curve in SI units.
+pub(super) struct Quantity {
+    pub(super) name: String,
+    pub(super) curves: Vec<Vec<(f64, f64)>>,
 }
 
 /// What a figure shows along an axis: a signal of an element or a mass, or the parts of the energy ledger.
@@ -275,4 +292,13 @@ pub(super) fn thickness_lines(
         colour,
     };
     limits.into_iter().map(line).collect()
+}
+
+/// Names in one text; of many the first ones and how many more there are.
+pub(super) fn listed(names: &[&str]) -> String {
+    const LAST: usize = MOST_LISTED - 1;
+    match names.len() {
+        0..=MOST_LISTED => names.join(", "),
+        count => format!("{} and {} more", names[..LAST].join(", "), count - LAST),
+    }
 }

@@ -26,6 +26,11 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// Arrays, tables and dotted keys may nest so deeply in a text. A level takes less than 4 kB of the stack.
 pub(crate) const MAX_LEVELS: usize = 128;
 
+/// The value of a key in an entry that is a table.
+pub(crate) fn value_of<'d>(entry: &'d Entry, key: &str) -> Option<&'d Item> {
+    entry.item.table()?.iter().find(|own| own.key == key).map(|own| &own.item)
+}
+
 /// Parses `source`; `None` when there is nothing to go on with. Numbers with scatter are read as their means.
 pub(crate) fn parse(source: &Arc<Source>, faults: &Faults) -> Option<Item> {
     parse_scattered(source, faults).map(|own| own.0)

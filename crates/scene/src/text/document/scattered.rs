@@ -5,8 +5,11 @@ use crate::{
     diagnostics::{Faults, fault::Fault},
     quantities::scatter::{Scatter, ScatterFault},
     text::source::Place,
-    vary::tunable::SECTIONS,
 };
+
+/// The tables whose numbers may vary.
+pub(crate) const SECTIONS: [&str; 7] =
+    ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
 
 /// Puts means in the place of numbers with scatter, and returns those with their places.
 pub(super) fn take(root: &mut Item, faults: &Faults) -> Vec<(Place, Scatter)> {

@@ -7,22 +7,23 @@ pub(crate) mod tables;
 use std::{collections::HashMap, sync::Arc};
 
 use super::{
+    bytes::text_of_bytes,
     document::{Entry, Item, parse_scattered, scattered::note},
     source::{Place, Source},
     table::{check_name, entries_of},
+    table_file::{Files, TableFile},
 };
 use crate::{
     diagnostics::{Diagnostic, Faults, fault::Fault},
     quantities::{
         basis::Basis,
-        quantity::{Quantities, Subject, Values},
+        named::Values,
+        quantity::{Quantities, Subject},
         scatter::ScatterFault,
         values::{self, Overrides},
     },
-    scene::text_of_bytes,
 };
 use models::{MODEL_SECTIONS, ModelSection};
-use tables::{Files, TableFile};
 
 /// Gives the bytes of another file by its path, or says why there are none.
 pub type Loader<'l> = &'l dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -107,7 +108,7 @@ impl Library {
             basis: Basis::Model,
             element: None,
             subject: Subject::Value,
-            files: Files { library: self, document },
+            files: Files { document: &self.documents[document].path, tables: &self.tables },
         }
     }
 
@@ -180,13 +181,4 @@ fn utf8(bytes: &[u8]) -> Result<String, String> {
 
 fn top_entry<'r>(root: &'r Item, key: &str) -> Option<&'r Entry> {
     root.table()?.iter().find(|entry| entry.key == key)
-}
-
-/// A path as seen from the file `from`: beside it, unless it is absolute.
-fn beside(from: &str, path: &str) -> String {
-    let absolute = path.starts_with(['/', '\\']) || path.contains(':');
-    match from.rfind(['/', '\\']) {
-        Some(end) if !absolute => format!("{}{path}", &from[..=end]),
-        _ => path.to_owned(),
-    }
 }

@@ -2,12 +2,13 @@
 
 use std::collections::VecDeque;
 
-use super::{Library, beside, top_entry};
+use super::{Library, top_entry};
 use crate::{
     diagnostics::fault::Fault,
     text::{
         document::{Content, Entry, Item},
         source::Place,
+        table_file::beside,
     },
 };
 

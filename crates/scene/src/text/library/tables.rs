@@ -3,7 +3,6 @@
 use std::{
     cell::RefCell,
     collections::{HashSet, VecDeque},
-    ops::Range,
     sync::{Arc, LazyLock},
 };
 
@@ -11,17 +10,16 @@ use dashpot_network::{
     composites::COMPOSITES, elements::ELEMENTS, parameters::registered, waveforms::WAVEFORMS,
 };
 
-use dashpot_signal::iso_mme::MmeChannel;
-
-use super::{Library, Loader, MAX_FILES, beside, mme, mme::MmeTest};
+use super::{Library, Loader, MAX_FILES, mme, mme::MmeTest};
 use crate::{
-    diagnostics::{Faults, fault::Fault},
+    diagnostics::Faults,
     kinds,
-    models::notes::{ModelNote, Remark},
+    models::notes::ModelNote,
     tables::table_text,
     text::{
         document::{Content, Entry, Item, MAX_BYTES},
-        source::{Place, Source},
+        source::Source,
+        table_file::{TableFile, beside},
     },
 };
 
@@ -29,62 +27,6 @@ use crate::{
 pub(crate) const FILE: &str = "file";
 /// The key of what its forces, stresses or values are multiplied by.
 pub(crate) const SCALE: &str = "scale";
-
-/// A file of numbers that points are read from.
-#[derive(Debug)]
-pub(crate) struct TableFile {
-    /// Number of its text among the sources.
-    pub(crate) number: u32,
-    pub(crate) source: Arc<Source>,
-    /// Its channels, where it is a test in ISO-MME, and the paths of their files.
-    pub(crate) channels: Option<Vec<MmeChannel>>,
-    pub(super) parts: Vec<String>,
-    /// What became of it, each told once.
-    remarks: RefCell<Vec<Remark>>,
-}
-
-impl TableFile {
-    /// Takes up what became of it.
-    pub(crate) fn remark(&self, what: Remark) {
-        let mut all = self.remarks.borrow_mut();
-        if !all.contains(&what) {
-            all.push(what);
-        }
-    }
-
-    /// The bytes of the line at which a row begins.
-    pub(crate) fn row(&self, start: usize) -> Range<usize> {
-        let rest = self.source.text.get(start..).unwrap_or_default();
-        start..start + rest.find(['\n', '\r']).unwrap_or(rest.len())
-    }
-
-    /// The number of the line, from 1, at which a byte is.
-    pub(crate) fn line(&self, at: usize) -> usize {
-        self.source.line_and_column(at).0
-    }
-}
-
-/// The files of numbers that a document names.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Files<'d> {
-    pub(super) library: &'d Library,
-    pub(super) document: usize,
-}
-
-impl<'d> Files<'d> {
-    /// The file of this path, which stands at `place`, as seen from the document; `None` with a fault where it
-    /// could not be read.
-    pub(crate) fn get(self, path: &str, place: Place, faults: &Faults) -> Option<&'d TableFile> {
-        let path = beside(&self.library.documents.get(self.document)?.path, path);
-        let reason = match self.library.tables.get(&path) {
-            Some(Ok(file)) => return Some(file),
-            Some(Err(reason)) => reason.clone(),
-            None => "it was not looked for".to_owned(),
-        };
-        faults.error(place, Fault::Unloadable { path, reason });
-        None
-    }
-}
 
 impl Library {
     /// Reads the files of numbers that the documents name. One that cannot be read is a fault where it is used.

@@ -8,6 +8,7 @@
 use std::{collections::BTreeMap, ops::Range, sync::Arc};
 
 use dashpot_network::parameters::Dimension;
+use dashpot_units::{Quantity, parse_quantity, si_unit};
 use thiserror::Error;
 
 use super::variation::{Written, other_dimension};
@@ -17,21 +18,17 @@ use crate::{
     quantities::{
         arithmetic::quietly,
         bare::{BareNumber, BareNumbers},
-        quantity::Values,
+        named::Values,
         scatter::Scatter,
         values::{Overrides, read as read_values},
     },
     text::{
-        document::{Content, Item, parse_scattered},
+        document::{Content, Item, parse_scattered, scattered::SECTIONS},
         nearest::{list, nearest, synonym},
         source::Source,
     },
-    units::{Quantity, parse_quantity, si_unit},
 };
 
-/// The tables whose numbers may vary.
-pub(crate) const SECTIONS: [&str; 7] =
-    ["values", "models", "materials", "nodes", "elements", "effects", "loads"];
 /// The key under `[run]` that may vary.
 const RUN: (&str, &str) = ("run", "duration");
 /// A node has one of these.

@@ -8,6 +8,7 @@ use diffsol_la::{
 };
 
 use super::{Column, ROWS, Single, StackMatrix, StackVector};
+use crate::methods::stepping::algebra::Algebra;
 
 /// The factors of a small matrix, in its own places, but for `U`'s diagonal, of which the reciprocals are kept.
 #[derive(Debug)]
@@ -18,6 +19,22 @@ pub(in crate::methods) struct StackFactor {
     reciprocals: Column,
     /// Whether there are factors, and none of the pivots is zero.
     is_regular: bool,
+}
+
+impl Algebra for StackMatrix {
+    type Factor = StackFactor;
+
+    fn values(&self) -> &[f64] {
+        self.columns.as_flattened()
+    }
+
+    fn values_mut(&mut self) -> &mut [f64] {
+        self.columns.as_flattened_mut()
+    }
+
+    fn place(&self, row: usize, column: usize) -> Option<usize> {
+        Some(column * ROWS + row)
+    }
 }
 
 impl Default for StackFactor {

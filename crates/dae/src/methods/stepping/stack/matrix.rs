@@ -2,14 +2,14 @@
 
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
-use diffsol::{DenseMatrix, Matrix, Scale, VectorIndex, matrix::MatrixCommon};
+use diffsol::{DefaultDenseMatrix, DenseMatrix, Matrix, Scale, VectorIndex, matrix::MatrixCommon};
 use diffsol_la::{Dense, DenseRef, LaError, matrix::MAX_SMALL_COLS};
 
 use super::{
-    Column, Indices, ROWS, Single, StackFactor, StackVector,
+    Column, Indices, ROWS, Single, StackVector,
     vector::{StackVectorMut, axpy},
 };
-use crate::methods::stepping::algebra::{Algebra, Slice};
+use crate::methods::stepping::algebra::{Algebra as _, Slice};
 
 /// A dense matrix of at most [`ROWS`] rows.
 #[derive(Debug, Clone)]
@@ -33,20 +33,8 @@ impl StackMatrix {
     }
 }
 
-impl Algebra for StackMatrix {
-    type Factor = StackFactor;
-
-    fn values(&self) -> &[f64] {
-        self.columns.as_flattened()
-    }
-
-    fn values_mut(&mut self) -> &mut [f64] {
-        self.columns.as_flattened_mut()
-    }
-
-    fn place(&self, row: usize, column: usize) -> Option<usize> {
-        Some(column * ROWS + row)
-    }
+impl DefaultDenseMatrix for StackVector {
+    type M = StackMatrix;
 }
 
 impl MatrixCommon for StackMatrix {

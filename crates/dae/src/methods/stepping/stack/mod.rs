@@ -9,7 +9,7 @@ mod matrix;
 mod tests;
 mod vector;
 
-pub(in crate::methods) use self::{factor::StackFactor, matrix::StackMatrix, vector::StackVector};
+pub(in crate::methods) use self::{matrix::StackMatrix, vector::StackVector};
 
 /// Most rows.
 pub(in crate::methods) const ROWS: usize = 8;

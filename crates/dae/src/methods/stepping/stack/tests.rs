@@ -4,7 +4,7 @@ use diffsol::{
 };
 use diffsol_la::LinearSolver;
 
-use super::*;
+use super::{factor::StackFactor, *};
 use crate::methods::stepping::algebra::{Algebra, Slice};
 
 struct Stored(StackMatrix);

@@ -2,9 +2,9 @@
 
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub, SubAssign};
 
-use diffsol::{DefaultDenseMatrix, Scale, Vector, VectorCommon, VectorView, VectorViewMut};
+use diffsol::{Scale, Vector, VectorCommon, VectorView, VectorViewMut};
 
-use super::{Column, Indices, ROWS, Single, StackMatrix};
+use super::{Column, Indices, ROWS, Single};
 use crate::methods::stepping::algebra::Slice;
 
 /// A vector of at most [`ROWS`] numbers. It is its own view: it is no longer than what points to one would save.
@@ -75,10 +75,6 @@ impl VectorCommon for StackVectorMut<'_> {
     fn inner(&self) -> &Column {
         self.0
     }
-}
-
-impl DefaultDenseMatrix for StackVector {
-    type M = StackMatrix;
 }
 
 /// The operators of vectors and their references.

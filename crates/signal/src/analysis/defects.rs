@@ -4,8 +4,9 @@ use dashpot_analysis::measures::STANDARD_GRAVITY;
 use dashpot_units::{Dimension, percent, quantity, si_unit};
 use thiserror::Error;
 
+use super::{Analysis, Removal};
 use crate::{
-    Analysis, Axis, CONTACT_LEVEL, Cfc, Channel, Measure, Motion, Offset, Part, Removal, Truth,
+    Axis, CONTACT_LEVEL, Cfc, Channel, Measure, Motion, Offset, Part, Truth,
     clipping::{EQUAL, runs},
     offset::{IMPACT, IN_A_ROW},
 };

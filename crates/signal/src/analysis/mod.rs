@@ -1,13 +1,17 @@
 //! From a raw channel to its numbers.
 
+pub(crate) mod defects;
+pub(crate) mod resultant;
+pub(crate) mod work;
+
 use dashpot_units::Dimension;
 use thiserror::Error;
 
+use self::defects::defects;
 use crate::{
     Approach, Cfc, CfcFault, Channel, ChannelFault, Contact, Defect, Measure, Motion, Noise,
     Offset, Padding, Part, Reading, Steps, Uncertainty, Work,
     clipping::{self, Clipping},
-    defects::defects,
     measures::Reader,
     noise::NEAR,
 };

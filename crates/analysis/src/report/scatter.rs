@@ -1,15 +1,14 @@
 //! What scatter of the numbers of a scene makes of its measures: bands, and probabilities to keep limits.
 
-use std::slice;
-
 use serde::Serialize;
 
-use crate::{Judgement, Limit, Missing, Reason, Unevaluated, sweep::SweepReport};
+use super::unevaluated::{Missing, Unevaluated};
+use crate::{Judgement, Limit, Reason};
 
 /// Half of the part of a sample that its 95 % range leaves out.
 const TAIL: f64 = 0.025;
 /// The part of the designs that has to keep a limit, where nothing else is asked for.
-const WANTED: f64 = 0.95;
+pub(crate) const WANTED: f64 = 0.95;
 /// Standard deviations of the normal distribution within which 95 % lie.
 const WITHIN: f64 = 1.959_963_984_540_054;
 
@@ -166,7 +165,7 @@ impl Chance {
 
 impl Odds {
     /// Those of designs of each of which one thing or more is judged: all must be kept, and one exceeded is enough.
-    fn of(judged: &[Vec<Judgement>]) -> Self {
+    pub(crate) fn of(judged: &[Vec<Judgement>]) -> Self {
         let designs = judged.first().map_or(0, Vec::len);
         let count = |is: &dyn Fn(usize) -> bool| (0..designs).filter(|at| is(*at)).count();
         let has = |at: usize, own: Judgement| judged.iter().filter(move |of| of[at] == own).count();
@@ -219,42 +218,6 @@ impl ScatterReport {
     /// The part of what the distributions say that designs are drawn from; the rest is cut off.
     pub fn within(&self) -> f64 {
         self.sources.iter().map(|own| 1.0 - own.beyond).product()
-    }
-
-    /// What a sweep over the designs of a sample tells.
-    pub fn of(sources: Vec<ScatterSource>, seed: u64, sweep: &SweepReport) -> Self {
-        let columns = sweep.columns.iter().enumerate().filter(|own| !own.1.is_share);
-        let bands = columns.map(|(at, own)| Band::of(&own.key, own.unit, sweep.column(at)));
-        let judged = |(column, limit): &(usize, Limit)| -> Vec<Judgement> {
-            let doubts = sweep.doubts(limit);
-            let judge = |(design, value): (usize, f64)| {
-                let grows = sweep.cut.contains(&(design, *column));
-                limit.bound.judge(value, None, grows).doubted(doubts[design])
-            };
-            sweep.column(*column).enumerate().map(judge).collect()
-        };
-        let all: Vec<Vec<Judgement>> = sweep.limits.iter().map(judged).collect();
-        let chance = |((_, limit), judged): (&(usize, Limit), &Vec<Judgement>)| {
-            let count =
-                |reason| judged.iter().filter(|own| **own == Judgement::Undecided(reason)).count();
-            Chance {
-                limit: limit.clone(),
-                odds: Odds::of(slice::from_ref(judged)),
-                beyond: count(Reason::Beyond) + count(Reason::NoLaw),
-                outside: count(Reason::Outside),
-            }
-        };
-        Self {
-            sources,
-            wanted: WANTED,
-            designs: sweep.points(),
-            seed,
-            bands: bands.collect(),
-            limits: sweep.limits.iter().zip(&all).map(chance).collect(),
-            all_limits: (all.len() > 1).then(|| Odds::of(&all)),
-            instantiated: sweep.instantiated,
-            unevaluated: sweep.unevaluated(),
-        }
     }
 
     /// Designs without a solution, by their causes.

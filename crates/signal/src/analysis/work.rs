@@ -2,9 +2,8 @@
 
 use thiserror::Error;
 
-use crate::{
-    Analysis, Impact, Measure, Reading, Truth, Uncertainty, defects::gain, sampling::Sampling,
-};
+use super::{Analysis, defects::gain};
+use crate::{Impact, Measure, Reading, Truth, Uncertainty, sampling::Sampling};
 
 /// What an impact does to a pad: the loop of force over displacement.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,7 @@
 //! The magnitude of what several axes of one location measure.
 
-use crate::{
-    Analysis, Axis, Channel, Defect, Noise, Place, analysis::Treated, defects::defects,
-    sampling::Sampling,
-};
+use super::{Analysis, Treated, defects::defects};
+use crate::{Axis, Channel, Defect, Noise, Place, sampling::Sampling};
 
 /// What a channel holds of what happens at its place.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
