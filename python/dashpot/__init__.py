@@ -14,13 +14,12 @@ from ._dashpot import Measure
 from ._dashpot import version as _version
 from ._errors import DashpotError, DashpotWarning, RunError, SceneError
 from ._scene import Report, Scene, run
-from ._studies import compare, rheometer, vibrate
+from ._studies import compare, cost, rheometer, vibrate
 from ._verbs import (
     Result,
     Sweep,
     call,
     convert,
-    cost,
     cushion,
     design,
     fit,

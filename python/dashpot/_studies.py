@@ -68,4 +68,4 @@ def _of_words(one: inspect.Parameter) -> str:
 
 
 _FUNCTIONS = {own["word"]: _function(own) for own in _dashpot.studies()}
-compare, rheometer, vibrate = (_FUNCTIONS[name] for name in ("compare", "rheometer", "vibrate"))
+compare, cost, rheometer, vibrate = (_FUNCTIONS[name] for name in ("compare", "cost", "rheometer", "vibrate"))

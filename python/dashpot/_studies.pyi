@@ -42,3 +42,15 @@ def vibrate(
     set: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> Result: ...
+
+def cost(
+    scene: str | Scene,
+    /,
+    *,
+    method: Literal['auto', 'bdf', 'tr-bdf2', 'esdirk34', 'tsit45', 'dop853', 'exact'] | Sequence[Literal['auto', 'bdf', 'tr-bdf2', 'esdirk34', 'tsit45', 'dop853', 'exact']] | None = None,
+    measure: str | Sequence[str] | None = None,
+    budget: int | None = None,
+    repeat: int | None = None,
+    set: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Result: ...

@@ -198,7 +198,6 @@ fit = _verb("fit", "Fits numbers of a scene, or a material, to measurements, wit
 design = _verb("design", "The best numbers of a scene within its limits, and what no pad can beat.")
 cushion = _verb("cushion", "Cushion curves: peak g over static stress.")
 groups = _verb("groups", "Dimensionless groups, and whether scenes are similar.")
-cost = _verb("cost", "What accuracy costs: true errors of every method against time and work.")
 
 
 class Sweep:

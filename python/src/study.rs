@@ -6,8 +6,8 @@ use dashpot_cli::{Said, Tone};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{Diagnostics, Tunables, units::si_unit};
 use dashpot_studies::{
-    BUILT_IN, Context, Given, Input, Kind, Operands, OptionInfo, Outcome, Remark, STUDIES,
-    StudyError, operand::parted,
+    BUILT_IN, Context, Given, Input, Kind, Operands, OptionInfo, Outcome, Progress, Remark,
+    STUDIES, StudyError, operand::parted,
 };
 use pyo3::{
     exceptions::PyTypeError,
@@ -130,6 +130,7 @@ pub(crate) fn ask<'py>(
         Some(Ok((outcome, object, said))) => {
             let status = match outcome {
                 Outcome::Done => 0,
+                Outcome::Failed => 1,
                 Outcome::NotSame => 3,
             };
             Ok((status, object?.into_bound(py), listed(py, &said)?))
@@ -271,8 +272,7 @@ impl Context for Memory {
         });
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "a share for people")]
-    fn progress(&mut self, done: usize, of: usize) -> ControlFlow<()> {
-        self.share.tell(done as f64 / of as f64)
+    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.share.tell(progress.share())
     }
 }

@@ -16,8 +16,8 @@ use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
 use dashpot_signal::{Cfc, Padding};
-use dashpot_studies::assignment;
 pub(crate) use dashpot_studies::operand::MODEL;
+use dashpot_studies::{Given, Single, assignment};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -327,18 +327,9 @@ pub(crate) fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f
     if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
 }
 
-/// Units of work: a whole number, or one such as 1e9.
-pub(crate) fn budget(text: &str) -> Result<u64, String> {
-    const MOST: f64 = 1e18;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the range is checked, and no one counts the last units"
-    )]
-    match text.parse::<f64>() {
-        Ok(number) if (1.0..=MOST).contains(&number) => Ok(number as u64),
-        _ => Err("it must be a number from 1 to 1e18, such as 1e10".to_owned()),
-    }
+/// The value that a text stands for.
+pub(crate) fn single<T: Single>(text: &str) -> Result<T, String> {
+    T::of(&Given::Text(text.to_owned()))
 }
 
 /// The names of methods, blanks around them allowed.

@@ -10,10 +10,9 @@ use std::{
 use dashpot_scene::{
     BareNumbers, Checked, Diagnostics, ModelNote, NamedModel, Scene, read, read_models, read_shared,
 };
-use dashpot_studies::{Context, Remark};
+use dashpot_studies::{Context, Progress, Remark};
 
 use crate::{
-    args::SceneArguments,
     error::{CliError, StudyError},
     folder::Folder,
     input::{self, AsCommanded as _, Input, bare_numbers, load},
@@ -94,8 +93,8 @@ impl Context for Surroundings {
         }
     }
 
-    fn progress(&mut self, done: usize, of: usize) -> ControlFlow<()> {
-        self.bar.count(done, of)
+    fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.bar.progress_of(progress)
     }
 }
 
@@ -141,13 +140,6 @@ pub(crate) fn read_models_of(
     let names = found.value.iter().map(name).collect::<Vec<_>>().join(", ");
     let first = found.value.into_iter().next().map(|own| own.name).unwrap_or_default();
     Ok(Some(format!("{names}, and no scene: others name them as `{}:{first}`", input.file)))
-}
-
-impl SceneArguments {
-    /// Reads the scene that the command line names.
-    pub(crate) fn read(&self, terminal: Terminal) -> Result<Scene, CliError> {
-        read_scene(self.scene.as_deref(), &self.values.set, terminal)
-    }
 }
 
 /// Says which numbers of a scene have scatter, where that is not looked at.

@@ -8,6 +8,7 @@ use std::{
 use dashpot_dae::{Observer, Progress};
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::units::format_quantity;
+use dashpot_studies::Progress as Advance;
 use dashpot_units::percent;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
@@ -68,6 +69,28 @@ impl Bar {
         self.show(done as f64 / of as f64, || format!("{done} of {of}"))
     }
 
+    /// Shows how far a study has come.
+    pub(crate) fn progress_of(&mut self, progress: Advance) -> ControlFlow<()> {
+        match progress {
+            Advance::Count { done, of } => self.count(done, of),
+            Advance::Solution { time, end, steps } => self.solution(time, end, steps),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Shows how far a solution until `end` has come. Errors are estimated from further solutions, each of which begins
+    /// anew, and whose measures are read at its end.
+    fn solution(&mut self, time: f64, end: f64, steps: usize) -> ControlFlow<()> {
+        let (number, before) = self.solution;
+        let number = number + usize::from(time < before);
+        self.solution = (number, time);
+        self.show(time / end, || {
+            let what = if time < end { "solving" } else { "reading" };
+            let time = format_quantity(time, Dimension::TIME, 3);
+            format!("{what} solution {number} at {time}, {steps} steps")
+        })
+    }
+
     /// Whether a line is due after so long.
     fn is_due(&mut self, elapsed: Duration) -> bool {
         let is_due = elapsed > self.next;
@@ -79,17 +102,8 @@ impl Bar {
 }
 
 impl Observer for Bar {
-    /// Errors are estimated from further solutions, each of which begins anew, and whose measures are read at its end.
     fn progress(&mut self, Progress { time, steps }: Progress) -> ControlFlow<()> {
-        let (number, before) = self.solution;
-        let number = number + usize::from(time < before);
-        self.solution = (number, time);
-        let end = self.end;
-        self.show(time / end, || {
-            let what = if time < end { "solving" } else { "reading" };
-            let time = format_quantity(time, Dimension::TIME, 3);
-            format!("{what} solution {number} at {time}, {steps} steps")
-        })
+        self.solution(time, self.end, steps)
     }
 }
 

@@ -39,10 +39,15 @@ impl Text {
             let width = labels.max().unwrap_or(0);
             report.verdict.iter().for_each(|line| self.labelled(&line.label, width, &line.text));
         }
-        for block in report.blocks(Place::Terminals) {
+        for (at, block) in report.blocks(Place::Terminals).enumerate() {
             match block {
                 Block::Table(content) => self.table(content),
-                Block::Notes(notes) => self.paragraphs(notes),
+                Block::Notes(notes) => {
+                    if at == 0 && !report.verdict.is_empty() {
+                        self.blank();
+                    }
+                    self.items(notes);
+                }
                 Block::Rows(content) => self.rows(content),
                 Block::Heading(words, below) => {
                     self.heading(words);

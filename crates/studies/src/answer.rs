@@ -35,8 +35,28 @@ erased_serde::serialize_trait_object!(Answer);
 pub enum Outcome {
     /// It is done.
     Done,
+    /// Nothing could be solved.
+    Failed,
     /// Two models are not the same.
     NotSame,
+}
+
+/// A cell of a table for programs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell {
+    /// A number in the unit of its column; one that is not finite is none.
+    Number(Option<f64>),
+    /// How many.
+    Count(usize),
+    /// A name.
+    Text(String),
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(value: Option<f64>) -> Self {
+        Self::Number(value)
+    }
 }
 
 /// A table of numbers for programs, in SI units.
@@ -45,8 +65,8 @@ pub struct DataTable<'t> {
     pub file: String,
     /// The columns, each with its unit in brackets.
     pub header: Vec<String>,
-    /// The rows; what has no value is `None`.
-    pub rows: Box<dyn Iterator<Item = Vec<Option<f64>>> + 't>,
+    /// The rows.
+    pub rows: Box<dyn Iterator<Item = Vec<Cell>> + 't>,
 }
 
 impl DataTable<'_> {
@@ -56,7 +76,12 @@ impl DataTable<'_> {
     ///
     /// Those of `out`.
     pub fn write(self, out: &mut dyn Write) -> io::Result<()> {
-        let plain = |cell: Option<f64>| cell.filter(|cell| cell.is_finite()).map(|cell| cell + 0.0);
+        let plain = |cell| match cell {
+            Cell::Number(value) => {
+                Cell::Number(value.filter(|value| value.is_finite()).map(|value| value + 0.0))
+            }
+            cell => cell,
+        };
         csv(out, self.header, self.rows.map(|row| crate::list(row.into_iter().map(plain))))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::{borrow::Cow, ops::ControlFlow, path::Path, sync::Arc};
 
+use dashpot_dae::Observer;
 use dashpot_scene::{
     BareNumbers, Diagnostics, ModelNote, ReadOptions, Scene, read, references, table_text,
     text_of_bytes,
@@ -65,8 +66,8 @@ pub trait Context {
         Ok(())
     }
 
-    /// Is told that `done` of so many are done; `Break` ends the work.
-    fn progress(&mut self, _done: usize, _of: usize) -> ControlFlow<()> {
+    /// Is told how far the work has come; `Break` ends it.
+    fn progress(&mut self, _progress: Progress) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }
@@ -78,6 +79,52 @@ impl Context for () {
 
     fn has(&self, _name: &str) -> bool {
         false
+    }
+}
+
+/// How far long work has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Progress {
+    /// So many of so many are done.
+    Count {
+        /// Those that are done.
+        done: usize,
+        /// All.
+        of: usize,
+    },
+    /// A solution is on its way; errors are estimated from further ones, each of which begins anew.
+    Solution {
+        /// The time that it has reached \[s\].
+        time: f64,
+        /// Its end \[s\].
+        end: f64,
+        /// Steps so far.
+        steps: usize,
+    },
+}
+
+impl Progress {
+    /// The part that is done, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        let share = match *self {
+            Self::Count { done, of } => done as f64 / of as f64,
+            Self::Solution { time, end, .. } => time / end,
+        };
+        share.clamp(0.0, 1.0)
+    }
+}
+
+/// Tells a context of the progress of solutions until `end` \[s\].
+pub(crate) struct Solving<'c> {
+    pub(crate) context: &'c mut dyn Context,
+    pub(crate) end: f64,
+}
+
+impl Observer for Solving<'_> {
+    fn progress(&mut self, progress: dashpot_dae::Progress) -> ControlFlow<()> {
+        let (time, steps, end) = (progress.time, progress.steps, self.end);
+        self.context.progress(Progress::Solution { time, end, steps })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The register of studies.
 
-use crate::{Study, compare, rheometer, vibrate};
+use crate::{Study, compare, cost, rheometer, vibrate};
 
 /// All studies, in the order in which help texts name them. **A new one is registered here.**
-pub const STUDIES: &[&dyn Study] = &[&compare::Compare, &rheometer::Rheometer, &vibrate::Vibrate];
+pub const STUDIES: &[&dyn Study] =
+    &[&compare::Compare, &rheometer::Rheometer, &vibrate::Vibrate, &cost::Cost];

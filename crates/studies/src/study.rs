@@ -56,9 +56,12 @@ pub trait Study: Sync {
     ) -> Result<Box<dyn Answer>, StudyError>;
 }
 
-/// What a study says of itself: its word, request and operands, what it does, and its manual.
+/// What a study says of itself: its word, request and operands, what it does, and its manual; and how it is asked.
 macro_rules! about_study {
-    ($word:literal, $request:ty, $operands:expr, $about:literal, $manual:literal) => {
+    (
+        $word:literal, $request:ty, $operands:expr, $about:literal, $manual:literal,
+        |$asked:ident, $set:ident, $wishes:ident, $context:ident| $solve:expr
+    ) => {
         fn word(&self) -> &'static str {
             $word
         }
@@ -71,12 +74,22 @@ macro_rules! about_study {
             $manual
         }
 
-        fn operands(&self) -> Operands {
+        fn operands(&self) -> $crate::Operands {
             $operands
         }
 
-        fn options(&self) -> &'static [OptionInfo] {
-            <$request as Request>::OPTIONS
+        fn options(&self) -> &'static [$crate::OptionInfo] {
+            <$request as $crate::Request>::OPTIONS
+        }
+
+        fn solve(
+            &self,
+            ($asked, $set): (&[String], &[(String, String)]),
+            given: &[(String, $crate::Given)],
+            $context: &mut dyn $crate::Context,
+        ) -> Result<Box<dyn $crate::Answer>, $crate::StudyError> {
+            let $wishes: $request = $crate::study::request(given)?;
+            Ok(Box::new($solve))
         }
     };
 }

@@ -3,7 +3,6 @@
 
 mod check;
 mod convert;
-mod cost;
 mod cushion;
 mod design;
 mod examples;
@@ -78,8 +77,6 @@ pub(crate) enum Command {
     /// A study.
     #[command(flatten)]
     Study(study::StudyArguments),
-    /// Shows what accuracy costs: true errors of every method against time and work.
-    Cost(cost::CostArguments),
     /// Reads measured channels: offset, CFC filter, peak, HIC, clips, with the errors of sampling.
     Signal(signal::SignalArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
@@ -124,7 +121,6 @@ impl Command {
             Self::Explain(arguments) => explain::explain(arguments, terminal),
             Self::Convert(arguments) => convert::convert(arguments, terminal),
             Self::Study(arguments) => arguments.run(terminal),
-            Self::Cost(arguments) => cost::cost(arguments, terminal),
             Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
             Self::Merge(arguments) => sweep::merged(arguments, terminal),

@@ -199,6 +199,7 @@ impl StudyArguments {
         emit(&shown, self.json, folder, terminal)?;
         Ok(match answer.outcome() {
             Outcome::Done => Status::Done,
+            Outcome::Failed => Status::RunFailed,
             Outcome::NotSame => Status::NotSame,
         })
     }

@@ -16,7 +16,7 @@ pub use self::result::{
     About, Cancelled, Comparison, Constant, Form, Impact, Map, Measured, Together, Worst,
 };
 use crate::{
-    Answer, Context, Given, Operands, OptionInfo, Outcome, Request, Study, StudyError,
+    Answer, Context, Operands, Outcome, Study, StudyError,
     non_identifiable::{combinations, groups},
     operand::{Operand, Subject, canonical_model, parted, remark_means},
     request,
@@ -90,22 +90,15 @@ impl Study for Compare {
          dashpot compare bridge.toml:face,ground pads.toml:felt\n  \
          dashpot compare old.toml:head,ground new.toml:head,ground\n\n\
          `Same` means that all poles and residues agree within 1e-11, relatively.\n\n\
-         Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong."
+         Exit codes: 0 they are the same, 3 they are not, 2 the input is wrong.",
+        |operands, set, request, context| {
+            let [first, second] = study::models(operands, set, context)?;
+            compare(&[first, second], &request, set, context)?
+        }
     }
 
     fn has_files(&self) -> bool {
         false
-    }
-
-    fn solve(
-        &self,
-        (operands, set): (&[String], &[(String, String)]),
-        given: &[(String, Given)],
-        context: &mut dyn Context,
-    ) -> Result<Box<dyn Answer>, StudyError> {
-        let request = study::request(given)?;
-        let [first, second] = study::models(operands, set, context)?;
-        Ok(Box::new(compare(&[first, second], &request, set, context)?))
     }
 }
 

@@ -15,7 +15,7 @@ use dashpot_report::{
 use dashpot_rheology::MaxwellForm;
 
 use super::{Made, Tested, Units, beside::MeasuredLoop};
-use crate::{DataTable, list};
+use crate::{Cell, DataTable, list};
 
 /// Points of a curve of a model, and how far beyond its times it goes.
 const POINTS: i32 = 400;
@@ -192,6 +192,6 @@ pub(super) fn table(made: &Made, units: Units) -> DataTable<'_> {
     let (header, columns): (Vec<_>, Vec<_>) = driven.chain(answers).unzip();
     let cell = |column: &Vec<Option<f64>>, row: usize| column.get(row).copied().flatten();
     let rows = (0..report.abscissa.values.len())
-        .map(move |row| list(columns.iter().map(|column| cell(column, row))));
+        .map(move |row| list(columns.iter().map(|column| Cell::Number(cell(column, row)))));
     DataTable { file: format!("{}.csv", made.name), header, rows: Box::new(rows) }
 }

@@ -8,11 +8,9 @@ mod tables;
 mod variants;
 
 use dashpot_analysis::{
-    Choice,
     measured::Deviation,
     rheometer::{LoadUnload, PROTOCOLS, RheometerReport, Specimen, methods_for, protocol},
 };
-use dashpot_dae::methods;
 use dashpot_network::parameters::Kind as _;
 use dashpot_report::Report;
 
@@ -21,11 +19,11 @@ use self::{
     variants::{given, tests, variants},
 };
 use crate::{
-    Answer, Assignment, Context, DataTable, Given, Kind, Operands, OptionInfo, Remark, Request,
+    Answer, Assignment, Context, DataTable, Given, Kind, MethodName, Operands, Progress, Remark,
     Single, Study, StudyError, list,
     operand::{MODEL, Operand, canonical_model},
     request,
-    study::{self, about_study},
+    study::about_study,
 };
 
 /// Unit of a strain rate.
@@ -54,18 +52,6 @@ pub struct TestName(pub String);
 impl Single for TestName {
     const KIND: Kind =
         Kind::Words(|| list(PROTOCOLS.iter().map(|protocol| (protocol.word, protocol.summary))));
-
-    fn of(given: &Given) -> Result<Self, String> {
-        String::of(given).map(Self)
-    }
-}
-
-/// The word of a method.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MethodName(pub String);
-
-impl Single for MethodName {
-    const KIND: Kind = Kind::Words(|| list(methods::all().iter().map(|own| (own.name(), ""))));
 
     fn of(given: &Given) -> Result<Self, String> {
         String::of(given).map(Self)
@@ -119,8 +105,7 @@ pub fn rheometer(
     let model = canonical_model(&operand)?;
     let units = Units { is_material: operand.is_material() };
     let specimen = Specimen::new(&model)?;
-    let methods = request.method.iter().map(|method| Choice::named(&method.0));
-    let mut methods = methods.collect::<Result<Vec<Choice>, _>>()?;
+    let mut methods = MethodName::choices(&request.method)?;
     if methods.is_empty() {
         methods.extend(methods_for(&specimen));
     }
@@ -144,7 +129,7 @@ pub fn rheometer(
     context.prepare(figures::files(names))?;
     let (mut made, of) = (Vec::new(), asked.len());
     for (at, (test, name, variant)) in asked.into_iter().enumerate() {
-        if context.progress(at, of).is_break() {
+        if context.progress(Progress::Count { done: at, of }).is_break() {
             return Err(StudyError::Ended);
         }
         match protocol(&test, &variant.given)?.run(&specimen, &methods) {
@@ -238,18 +223,12 @@ impl Study for Rheometer {
          dashpot rheometer pads.toml:felt --method exact,bdf\n\n\
          Each test of a linear model is computed from its poles and residues in closed form, and \
          independently from the equations of its network; both are shown. Any other model is \
-         simulated. `dashpot list tests` tells of each test and its parameters."
-    }
-
-    fn solve(
-        &self,
-        (operands, set): (&[String], &[(String, String)]),
-        given: &[(String, Given)],
-        context: &mut dyn Context,
-    ) -> Result<Box<dyn Answer>, StudyError> {
-        let request = study::request(given)?;
-        let word = operands.first().ok_or_else(|| StudyError::setting("model", "none is named"))?;
-        let operand = Operand::read_any(word, set, context)?;
-        Ok(Box::new(rheometer(operand, &request, set, context)?))
+         simulated. `dashpot list tests` tells of each test and its parameters.",
+        |operands, set, request, context| {
+            let none = || StudyError::setting("model", "none is named");
+            let word = operands.first().ok_or_else(none)?;
+            let operand = Operand::read_any(word, set, context)?;
+            rheometer(operand, &request, set, context)?
+        }
     }
 }

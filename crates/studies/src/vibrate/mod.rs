@@ -17,8 +17,8 @@ use dashpot_scene::{
 use serde::{Serialize, Serializer};
 
 use crate::{
-    Amount, Answer, Context, DataTable, Frequency, Given, Operands, OptionInfo, Request, Study,
-    StudyError, VERSION, list, object,
+    Amount, Answer, Context, DataTable, Frequency, Operands, Progress, Study, StudyError, VERSION,
+    list, object,
     operand::remark_means,
     origin, request,
     study::{self, about_study},
@@ -94,7 +94,8 @@ pub fn vibrate(
     };
     let kind = vibration.drive().kind;
     context.prepare(report::files(&vibration.quantities(&settings.of)?, kind))?;
-    let sweep = vibration.sweep_watched(&settings, &mut |done, of| context.progress(done, of))?;
+    let sweep = vibration
+        .sweep_watched(&settings, &mut |done, of| context.progress(Progress::Count { done, of }))?;
     let steady = match (settings.at, &request.amplitude) {
         (Some(frequency), Some(text)) => {
             Some(vibration.steady(frequency, amplitude(&vibration, frequency, text)?)?)
@@ -220,18 +221,11 @@ impl Study for Vibrate {
          dashpot vibrate reference --drive ground --of padding.force,ground.apparent-mass\n\n\
          One load or motion is a sine of any small size, all others are silent: the functions of \
          time in the scene, weights and start speeds do not matter. A fixed node such as `ground` may \
-         be shaken too. Scenes that switch or are not linear are refused."
-    }
-
-    fn solve(
-        &self,
-        (operands, set): (&[String], &[(String, String)]),
-        given: &[(String, Given)],
-        context: &mut dyn Context,
-    ) -> Result<Box<dyn Answer>, StudyError> {
-        let request: VibrateRequest = study::request(given)?;
-        let scene = study::scene(operands, set, context)?;
-        remark_means(&scene, context);
-        Ok(Box::new(vibrate(&scene, &request, context)?))
+         be shaken too. Scenes that switch or are not linear are refused.",
+        |operands, set, request, context| {
+            let scene = study::scene(operands, set, context)?;
+            remark_means(&scene, context);
+            vibrate(&scene, &request, context)?
+        }
     }
 }

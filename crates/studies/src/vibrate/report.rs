@@ -15,7 +15,7 @@ use dashpot_report::{
 use dashpot_units::STANDARD_GRAVITY as GRAVITY;
 
 use super::Vibrated;
-use crate::{Answer as _, DataTable, list};
+use crate::{Answer as _, Cell, DataTable, list};
 
 /// Ratios and phases at all frequencies.
 const TABLE: &str = "response.csv";
@@ -88,7 +88,7 @@ pub(super) fn table(sweep: &Sweep) -> DataTable<'_> {
             let phase = phase.map(|swing| degrees(swing.phase));
             [swing.map(|swing| swing.amplitude), phase, swing.map(|swing| swing.error)]
         });
-        list([Some(*frequency)].into_iter().chain(values))
+        [Some(*frequency)].into_iter().chain(values).map(Cell::Number).collect()
     };
     let rows = sweep.frequencies.iter().enumerate().map(row);
     DataTable { file: TABLE.to_owned(), header: list(header), rows: Box::new(rows) }

@@ -59,8 +59,8 @@ pub(crate) use self::{
 pub use self::{one::SceneRun, options::RunOptions, scatter::ScatterArguments};
 use crate::{
     args::{
-        LimitArguments, MethodNames, NO_SCATTER, Switch, ValueArguments, Variant, When, budget,
-        method_names, refuse, share, time, variant,
+        LimitArguments, MethodNames, NO_SCATTER, Switch, ValueArguments, Variant, When,
+        method_names, refuse, share, single, time, variant,
     },
     error::{CliError, Status},
     folder::{Folder, Staged},
@@ -71,6 +71,7 @@ use crate::{
     verbs::check::undefined,
 };
 use dashpot_report::layout::indented;
+use dashpot_studies::Budget;
 
 const PLOT_HEIGHT: usize = 14;
 /// Points of a curve in the plot: many more than dots, so that quick oscillations fill their band.
@@ -143,8 +144,8 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     estimate: Switch,
     /// Most work of each run, in units of a step of one unknown, 20 to 60 ns [default: 1e9, 20 to 60 s].
-    #[arg(long, value_name = "UNITS", value_parser = budget)]
-    budget: Option<u64>,
+    #[arg(long, value_name = "UNITS", value_parser = single::<Budget>)]
+    budget: Option<Budget>,
     /// Folder for CSV, JSON, SVG and HTML; it is made if need be.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,

@@ -34,7 +34,7 @@ impl RunOptions {
             neglect: arguments.neglect,
             rtol: arguments.rtol,
             without_errors: arguments.estimate == Switch::Off,
-            budget: arguments.budget,
+            budget: arguments.budget.map(|budget| budget.0),
             measures: arguments.measure.clone(),
             sample: arguments.scatter,
             floor: arguments.floor,

@@ -41,7 +41,7 @@ impl Changes {
             neglect: arguments.neglect,
             rtol: arguments.rtol,
             unestimated: arguments.estimate == Switch::Off,
-            budget: arguments.budget,
+            budget: arguments.budget.map(|budget| budget.0),
             limits: arguments.limits.limit.iter().map(|own| own.text.clone()).collect(),
         }
     }

@@ -16,12 +16,13 @@ use super::{
     varied::Varied,
 };
 use crate::{
-    args::{LimitArguments, SceneArguments, When, budget, method_names, share},
+    args::{LimitArguments, SceneArguments, When, method_names, share, single},
     counts::{SWEEP_POINTS, threads},
     error::CliError,
     folder::Folder,
     varied::method,
 };
+use dashpot_studies::Budget;
 
 /// `sweep`.
 #[derive(Debug, Clone, Args, Serialize, Deserialize)]
@@ -84,8 +85,8 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_enum, value_name = "WHERE")]
     pub(super) estimate: Option<EstimatedPoints>,
     /// Most work of each point, in units of a step of one unknown, 20 to 60 ns [default: 1e9, 20 to 60 s].
-    #[arg(long, value_name = "UNITS", value_parser = budget)]
-    pub(super) budget: Option<u64>,
+    #[arg(long, value_name = "UNITS", value_parser = single::<Budget>)]
+    pub(super) budget: Option<Budget>,
     /// How many threads share the points; the results are the same [default: one per core].
     #[arg(long, value_name = "NUMBER", value_parser = threads)]
     #[serde(skip)]
@@ -166,7 +167,7 @@ impl SweepArguments {
         further: &[Limit],
     ) -> Result<ScenePoint, RunError> {
         let mut settings = posed.settings(method(&posed, self.method.as_deref()))?;
-        settings.budget = self.budget.unwrap_or(settings.budget);
+        settings.budget = self.budget.map_or(settings.budget, |budget| budget.0);
         Limit::add(&mut settings.limits, further.iter().cloned());
         settings.accuracy.neglect_below = self.neglect.or(settings.accuracy.neglect_below);
         Ok(ScenePoint { network: posed.network, settings })

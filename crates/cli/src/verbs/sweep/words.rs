@@ -33,7 +33,7 @@ impl SweepArguments {
         let asked = [
             ("method", self.method.clone()),
             ("neglect below", self.neglect.map(numbers::share)),
-            ("most work of a point", self.budget.map(|own| own.to_string())),
+            ("most work of a point", self.budget.map(|budget| budget.0.to_string())),
             ("vary", (!self.vary.is_empty()).then(|| self.vary.join("; "))),
             ("set", (!set.is_empty()).then(|| set.join("; "))),
             ("sample, seed", self.sample.map(|count| format!("{count}, {}", self.seed))),

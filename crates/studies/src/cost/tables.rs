@@ -6,65 +6,75 @@ use dashpot_analysis::work_precision::{
     CostFailure, CostPoint, CostReport, Deviation, Spread, Subject, Timing, TrueMeasure,
     Underestimate,
 };
-use dashpot_report::Table;
+use dashpot_report::{
+    Columns, Table,
+    numbers::{duration, rounded, significant},
+};
 
-use super::{subject, tolerance, wish};
-use crate::output::{alike, list};
-use dashpot_report::numbers::{duration, significant};
+use crate::{alike, list};
 
 /// What does not exist.
 const NONE: &str = "–";
 /// What may be smaller, too.
 const AT_MOST: &str = "≤";
 
+/// What an error is one of, as readers know it.
+pub(super) fn subject(report: &CostReport, subject: Subject) -> &str {
+    match subject {
+        Subject::State => "state",
+        Subject::Events => "events",
+        Subject::Measure(at) => report.measures.get(at).map_or("", |measure| measure.key.as_str()),
+    }
+}
+
+/// A tolerance, or that there is none.
+fn tolerance(rtol: Option<f64>) -> String {
+    rtol.map_or("–".to_owned(), |rtol| format!("{rtol:e}"))
+}
+
+/// An accuracy as it is asked for: in percent, or where it is strict, as a power of ten.
+fn wish(accuracy: f64) -> String {
+    if accuracy < 1e-5 {
+        format!("{accuracy:e}")
+    } else {
+        format!("{} %", rounded(100.0 * accuracy, "1", 3))
+    }
+}
+
 /// Errors and times of all solutions.
 pub(super) fn errors(report: &CostReport) -> Table {
-    let row = |cost_point: &CostPoint| {
-        vec![
-            cost_point.method.to_owned(),
-            tolerance(cost_point.rtol),
-            time(cost_point.time.median),
-            spread(cost_point.time),
-            error(cost_point.state),
-            events(&cost_point.events),
-            error(cost_point.largest(&report.asked)),
-        ]
-    };
     let measures = match report.asked.as_slice() {
         [only] => subject(report, Subject::Measure(*only)),
         all if all.len() < report.measures.len() => "asked measures",
         _ => "all measures",
     };
-    Table::new(
-        "Relative errors",
-        &["method", "rtol", "time", "spread", "state", "events", measures],
-        report.points.iter().map(row),
-    )
+    solutions()
+        .column("time", |point| time(point.time.median))
+        .column("spread", |point| spread(point.time))
+        .column("state", |point| error(point.state))
+        .column("events", |point| events(&point.events))
+        .column(measures, |point| error(point.largest(&report.asked)))
+        .table("Relative errors", &report.points)
 }
 
 /// The work of all solutions by steps.
 pub(super) fn work(report: &CostReport) -> Table {
-    let steps = report.points.iter().filter(|point| point.work.accepted > 0);
-    let row = |cost_point: &CostPoint| {
-        let work = &cost_point.work;
-        let mut row = vec![cost_point.method.to_owned(), tolerance(cost_point.rtol)];
-        let counts = [
-            work.accepted,
-            work.rejected,
-            work.rhs_calls,
-            work.jacobian_calls,
-            work.factorizations,
-            work.linear_solves,
-        ];
-        row.extend(counts.map(|count| count.to_string()));
-        row.push(time(cost_point.integration.median));
-        row
-    };
-    Table::new(
-        "Work",
-        &["method", "rtol", "steps", "rejected", "rhs", "Jacobians", "LU", "solves", "integration"],
-        steps.map(row),
-    )
+    solutions()
+        .column("steps", |point| point.work.accepted.to_string())
+        .column("rejected", |point| point.work.rejected.to_string())
+        .column("rhs", |point| point.work.rhs_calls.to_string())
+        .column("Jacobians", |point| point.work.jacobian_calls.to_string())
+        .column("LU", |point| point.work.factorizations.to_string())
+        .column("solves", |point| point.work.linear_solves.to_string())
+        .column("integration", |point| time(point.integration.median))
+        .table("Work", report.points.iter().filter(|point| point.work.accepted > 0))
+}
+
+/// The columns that name a solution.
+fn solutions<'c>() -> Columns<'c, &'c CostPoint> {
+    Columns::new()
+        .column("method", |point: &&CostPoint| point.method.to_owned())
+        .column("rtol", |point| tolerance(point.rtol))
 }
 
 /// The cheapest method for each measure at these accuracies.
@@ -291,5 +301,9 @@ mod tests {
         assert_eq!(of(0.0, f64::INFINITY), "unknown");
         assert_eq!(of(f64::INFINITY, 1e-9), "missing");
         assert_eq!(error(None), "–");
+    }
+    #[test]
+    fn accuracies_are_written_as_they_are_asked_for() {
+        assert_eq!([1e-2, 1e-3, 5e-4, 1e-6].map(wish), ["1 %", "0.1 %", "0.05 %", "1e-6"]);
     }
 }
