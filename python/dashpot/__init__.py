@@ -14,7 +14,7 @@ from ._dashpot import Measure
 from ._dashpot import version as _version
 from ._errors import DashpotError, DashpotWarning, RunError, SceneError
 from ._scene import Report, Scene, run
-from ._studies import compare, cost, rheometer, vibrate
+from ._studies import compare, cost, rheometer, signal, vibrate
 from ._verbs import (
     Result,
     Sweep,
@@ -24,7 +24,6 @@ from ._verbs import (
     design,
     fit,
     groups,
-    signal,
     sweep,
     sweep_to_parquet,
 )

@@ -54,3 +54,25 @@ def cost(
     set: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> Result: ...
+
+def signal(
+    *files: str,
+    channel: str | Sequence[str] | None = None,
+    units: str | Sequence[str] | None = None,
+    rate: str | float | None = None,
+    offset: str | float | None = None,
+    invert: bool | None = None,
+    cfc: int | None = None,
+    padding: Literal['odd', 'even', 'hold', 'none', 'zero'] | None = None,
+    from_: str | float | None = None,
+    to: str | float | None = None,
+    velocity: str | float | None = None,
+    mass: str | float | None = None,
+    touch: str | float | None = None,
+    falls: bool | None = None,
+    guided: str | None = None,
+    displacement: str | None = None,
+    limit: str | Sequence[str] | None = None,
+    enforce: bool | None = None,
+    progress: Progress | None = None,
+) -> Result: ...

@@ -80,10 +80,10 @@ def asked_of(
     words = [_operand(own, texts) for own in operands]
     scene = next((own for own in operands if isinstance(own, Scene)), None)
     verb, wanted = study["word"], study["operands"]
-    if not (len(words) == len(wanted) or wanted == ["scene"] and not words):
-        given = f"`{verb}` takes {' and '.join(wanted)}, and options by name; {len(words)} were given"
+    if not (len(words) == len(wanted) or wanted == ["scene"] and not words or words and wanted[0][0] == "*"):
+        given = f"`{verb}` takes {' and '.join(wanted).lstrip('*')}, and options by name; {len(words)} were given"
         raise SceneError([{"tone": "error", "message": given, **dict.fromkeys(("code", "help", "file", "line", "column"))}])
-    known = {keyword_of(own["name"]): own["name"] for own in study["options"]}
+    known = {keyword_of(name): own["name"] for own in study["options"] for name in (own["name"], own["alias"]) if name}
     own = {keyword_of(name): value for name, value in options.items()}
     further = [name for name in own if name not in known and name != "set"]
     if further and all(name in (options_of(verb) or {}) for name in further):
@@ -92,7 +92,7 @@ def asked_of(
         found = json.loads(output)
         _warn(verb, operands, said, found)
         return Result(found, status, said)
-    check(verb, own, [*known, "set"])
+    check(verb, own, [*known, *(["set"] if is_settable(study) else [])])
     pairs = _set(own.pop("set", None) or {})
     request = {known[name]: value for name, value in own.items()}
     try:
@@ -101,6 +101,11 @@ def asked_of(
         raise type(error)(_in_python(verb, error.faults)) from None
     _warn(verb, operands, said, found)
     return Result(found, status, said)
+
+
+def is_settable(study: Mapping[str, Any]) -> bool:
+    """Whether values can be set in what a study is asked about: not in files of measurements."""
+    return not study["operands"][0].startswith("*")
 
 
 def _set(given: Any) -> list[tuple[str, Any]]:
@@ -193,7 +198,6 @@ def convert(*operands: Any, **options: Any) -> str:
     return _called("convert", operands, options, None)[1]
 
 
-signal = _verb("signal", "Reads measured channels: offset, CFC filter, peak, HIC, clips.")
 fit = _verb("fit", "Fits numbers of a scene, or a material, to measurements, with their intervals.")
 design = _verb("design", "The best numbers of a scene within its limits, and what no pad can beat.")
 cushion = _verb("cushion", "Cushion curves: peak g over static stress.")

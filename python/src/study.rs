@@ -32,6 +32,7 @@ pub(crate) fn studies(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
         entry.set_item("about", study.about())?;
         let operands: Vec<&str> = match study.operands() {
             Operands::Scene => vec!["scene"],
+            Operands::Files(_) => vec!["*files"],
             Operands::Models(models) => models.iter().map(|model| model.0).collect(),
         };
         entry.set_item("operands", operands)?;
@@ -61,6 +62,7 @@ fn described<'py>(py: Python<'py>, option: &OptionInfo) -> PyResult<Bound<'py, P
     };
     let entry = PyDict::new(py);
     entry.set_item("name", option.name)?;
+    entry.set_item("alias", option.alias)?;
     entry.set_item("about", option.about())?;
     entry.set_item("kind", kind)?;
     entry.set_item("unit", unit)?;
@@ -132,6 +134,7 @@ pub(crate) fn ask<'py>(
                 Outcome::Done => 0,
                 Outcome::Failed => 1,
                 Outcome::NotSame => 3,
+                Outcome::LimitNotKept => 4,
             };
             Ok((status, object?.into_bound(py), listed(py, &said)?))
         }
@@ -252,6 +255,10 @@ impl Context for Memory {
 
     fn has(&self, name: &str) -> bool {
         self.texts.contains_key(name) || Path::new(name).is_file()
+    }
+
+    fn folder(&self, name: &str) -> Option<Result<Vec<String>, String>> {
+        dashpot_cli::folder(Path::new(name))
     }
 
     fn input(&self, name: &str) -> Result<Input, StudyError> {

@@ -15,9 +15,9 @@ use dashpot_analysis::{Accuracy, Limit};
 use dashpot_dae::methods;
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{nearest, parse_limits, units::parse_quantity};
-use dashpot_signal::{Cfc, Padding};
+use dashpot_signal::Padding;
 pub(crate) use dashpot_studies::operand::MODEL;
-use dashpot_studies::{Given, Single, assignment};
+use dashpot_studies::{Given, Single, Time, assignment};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -228,10 +228,17 @@ pub(crate) fn explained(mut error: clap::Error) -> clap::Error {
         Some(format!("did you mean `{near}`?"))
     } else if error.kind() == ErrorKind::MissingRequiredArgument {
         let examples = verb.and_then(Command::get_after_help).map(ToString::to_string);
-        let first = examples
-            .as_deref()
-            .and_then(|own| own.lines().find(|own| own.starts_with("  dashpot")));
-        first.map(|own| {
+        let missing = match error.get(ContextKind::InvalidArg) {
+            Some(ContextValue::Strings(missing)) => missing.first().cloned().unwrap_or_default(),
+            _ => String::new(),
+        };
+        let option = missing.split(' ').next().filter(|word| word.starts_with("--"));
+        let shows = |line: &&str| {
+            line.starts_with("  dashpot")
+                && option.is_none_or(|option| line.split(' ').any(|word| word == option))
+        };
+        let example = examples.as_deref().and_then(|examples| examples.lines().find(shows));
+        example.map(|own| {
             format!("for example `{}`", own.trim().split("   ").next().unwrap_or_default())
         })
     } else {
@@ -292,15 +299,6 @@ pub(crate) fn probability(text: &str) -> Result<f64, String> {
     Err("it must be at least 50% and less than 100%, such as 95%".to_owned())
 }
 
-/// A channel frequency class, such as 180 or "CFC180".
-pub(crate) fn frequency_class(text: &str) -> Result<Cfc, String> {
-    let text = text.trim();
-    let number = text.strip_prefix("CFC").or(text.strip_prefix("cfc")).unwrap_or(text).trim();
-    let class =
-        number.parse().map_err(|_| format!("`{text}` is no class: write 60, 180, 600 or 1000"))?;
-    Cfc::new(class).map_err(|error| error.to_string())
-}
-
 /// What stands beyond the ends of a record for a filter.
 pub(crate) fn paddings() -> PossibleValuesParser {
     let value = |own: Padding| {
@@ -318,13 +316,7 @@ pub(crate) fn time(text: &str) -> Result<f64, String> {
 
 /// A time \[s\], or a difference of times.
 pub(crate) fn shift(text: &str) -> Result<f64, String> {
-    crate::input::argument("time", text, Dimension::TIME)
-}
-
-/// A positive value, in SI units.
-pub(crate) fn positive(name: &str, text: &str, dimension: Dimension) -> Result<f64, String> {
-    let value = crate::input::argument(name, text, dimension)?;
-    if value > 0.0 { Ok(value) } else { Err("it must be positive".to_owned()) }
+    Ok(single::<Time>(text)?.0)
 }
 
 /// The value that a text stands for.

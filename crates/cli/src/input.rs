@@ -97,14 +97,6 @@ pub(crate) fn setting(name: &str, text: &str, expected: Dimension) -> Result<f64
     }
 }
 
-/// The same for a value of the command line, with what to write in one sentence.
-pub(crate) fn argument(name: &str, text: &str, expected: Dimension) -> Result<f64, String> {
-    setting(name, text.trim(), expected).map_err(|error| match error.help() {
-        Some(help) => format!("{error}; {help}"),
-        None => error.to_string(),
-    })
-}
-
 /// What may be meant by a name that no file has: the same with or without the ending of a scene, or a built-in scene.
 fn similar(path: &Path) -> Option<String> {
     let with_ending = path.with_extension("toml");
@@ -122,6 +114,16 @@ fn similar(path: &Path) -> Option<String> {
 /// Why it cannot be read: it is not there, no regular file, or too large.
 pub fn load(path: &str) -> Result<Vec<u8>, String> {
     bytes_of(Path::new(path)).map_err(|error| reason(&error))
+}
+
+/// The paths of what is in a folder; `None` where there is none.
+pub fn folder(path: &Path) -> Option<Result<Vec<String>, String>> {
+    let named = |error: io::Error| format!("`{}`: {}", path.display(), reason(&error));
+    let path_of = |entry: fs::DirEntry| entry.path().to_string_lossy().into_owned();
+    path.is_dir().then(|| {
+        let entries = fs::read_dir(path).map_err(named)?;
+        entries.map(|entry| entry.map(path_of).map_err(named)).collect()
+    })
 }
 
 pub(crate) fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {

@@ -30,7 +30,7 @@ use dashpot_report::layout as text;
 
 pub use dashpot_studies::sketch::drawing;
 pub use host::{Called, Host, Said, Tone, Watch, call, open, read_scene};
-pub use input::{load, read_input};
+pub use input::{folder, load, read_input};
 pub use options::{VerbOption, options};
 pub use verbs::run::{RunOptions, ScatterArguments, SceneRun};
 

@@ -13,9 +13,10 @@ use dashpot_scene::{
 use dashpot_studies::{Context, Progress, Remark};
 
 use crate::{
+    error::reason,
     error::{CliError, StudyError},
     folder::Folder,
-    input::{self, AsCommanded as _, Input, bare_numbers, load},
+    input::{self, AsCommanded as _, Input, bare_numbers, bytes_of, folder, load},
     output::PAGE,
     progress::Bar,
     terminal::{Terminal, note},
@@ -60,7 +61,11 @@ impl Surroundings {
 
 impl Context for Surroundings {
     fn load(&self, name: &str) -> Result<Vec<u8>, String> {
-        load(name)
+        bytes_of(self.path(name)).map_err(|error| reason(&error))
+    }
+
+    fn folder(&self, name: &str) -> Option<Result<Vec<String>, String>> {
+        folder(self.path(name))
     }
 
     fn has(&self, name: &str) -> bool {
@@ -95,6 +100,23 @@ impl Context for Surroundings {
 
     fn progress(&mut self, progress: Progress) -> ControlFlow<()> {
         self.bar.progress_of(progress)
+    }
+}
+
+/// The files of the command, for what reads them alone.
+pub(crate) struct Files;
+
+impl Context for Files {
+    fn load(&self, name: &str) -> Result<Vec<u8>, String> {
+        load(name)
+    }
+
+    fn has(&self, name: &str) -> bool {
+        Path::new(name).is_file()
+    }
+
+    fn folder(&self, name: &str) -> Option<Result<Vec<String>, String>> {
+        folder(Path::new(name))
     }
 }
 

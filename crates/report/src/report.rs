@@ -67,6 +67,8 @@ pub enum Block {
     Notes(Vec<String>),
     /// The rows of a table, below what has been said before.
     Rows(Table),
+    /// Numbers of one thing, below what has been said of it: in texts with a faint header and a last column that is wrapped.
+    Numbers(Table),
     /// A heading above further blocks, and what is to be known of all of them; empty for nothing.
     Heading(String, String),
     /// A plot; on pages it is a [`Figure`].
@@ -200,7 +202,7 @@ impl Report {
         let mut parts = vec![list("warnings", &self.warnings), list("verdict", &verdict)];
         parts.extend(self.network.iter().map(ReportFigure::network));
         parts.extend(self.blocks(Place::Pages).map(|block| match block {
-            Block::Table(table) | Block::Rows(table) => table.html(),
+            Block::Table(table) | Block::Rows(table) | Block::Numbers(table) => table.html(),
             Block::Notes(notes) => list("notes", notes),
             Block::Heading(words, below) => heading(words, below),
             Block::Chart(_) => String::new(),

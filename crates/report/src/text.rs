@@ -49,9 +49,12 @@ impl Text {
                     self.items(notes);
                 }
                 Block::Rows(content) => self.rows(content),
+                Block::Numbers(content) => self.figures(content),
                 Block::Heading(words, below) => {
                     self.heading(words);
-                    self.faint(below);
+                    if !below.is_empty() {
+                        self.faint(below);
+                    }
                 }
                 Block::Chart(chart) if plotted => self.chart(chart, CHART),
                 Block::Chart(_) => {}

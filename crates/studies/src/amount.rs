@@ -112,21 +112,44 @@ pub fn assignment(text: &str) -> Result<(String, String), String> {
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
-/// A frequency \[Hz\], positive.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub struct Frequency(pub f64);
+/// Types of quantities of one dimension.
+macro_rules! quantities {
+    ($($(#[doc = $about:literal])+ $quantity:ident: $dimension:ident, $name:literal, $unit:literal, $check:expr;)*) => { $(
+        $(#[doc = $about])+
+        #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+        pub struct $quantity(pub f64);
 
-impl Single for Frequency {
-    const KIND: Kind = Kind::Quantity("Hz");
+        impl Single for $quantity {
+            const KIND: Kind = Kind::Quantity($unit);
 
-    fn of(given: &Given) -> Result<Self, String> {
-        let value = match given {
-            Given::Number(number) => *number,
-            Given::Text(text) => argument("frequency", text, Dimension::FREQUENCY)?,
-            _ => return Err("a frequency is wanted".to_owned()),
-        };
-        if value > 0.0 { Ok(Self(value)) } else { Err("it must be positive".to_owned()) }
-    }
+            fn of(given: &Given) -> Result<Self, String> {
+                let value = match given {
+                    Given::Number(number) => *number,
+                    Given::Text(text) => argument($name, text.trim(), Dimension::$dimension)?,
+                    _ => return Err(concat!("a ", $name, " is wanted").to_owned()),
+                };
+                let check: fn(f64) -> Option<&'static str> = $check;
+                check(value).map_or(Ok(Self(value)), |wrong| Err(wrong.to_owned()))
+            }
+        }
+    )* };
+}
+
+quantities! {
+    /// A frequency \[Hz\], positive.
+    Frequency: FREQUENCY, "frequency", "Hz", positive;
+    /// A time or a difference of times \[s\].
+    Time: TIME, "time", "s", |_| None;
+    /// A speed along the impact \[m/s\], positive.
+    Speed: VELOCITY, "velocity", "m/s", |value| positive(value).map(|_| {
+        "it must be positive: it is that along the impact, whichever way the peak points"
+    });
+    /// A mass \[kg\], positive.
+    Mass: MASS, "mass", "kg", positive;
+}
+
+fn positive(value: f64) -> Option<&'static str> {
+    (value <= 0.0 || value.is_nan()).then_some("it must be positive")
 }
 
 /// The value of a setting of this name, in SI units. A number without a unit may be meant in others, and is refused unless

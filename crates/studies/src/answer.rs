@@ -39,6 +39,8 @@ pub enum Outcome {
     Failed,
     /// Two models are not the same.
     NotSame,
+    /// A limit that is enforced is not kept, or not for certain.
+    LimitNotKept,
 }
 
 /// A cell of a table for programs.

@@ -29,6 +29,11 @@ pub trait Context {
     /// Whether there is a file of this name.
     fn has(&self, name: &str) -> bool;
 
+    /// The paths of what is in a folder; `None` where there is no folder of this name.
+    fn folder(&self, _name: &str) -> Option<Result<Vec<String>, String>> {
+        None
+    }
+
     /// The text of a scene or model that a request names.
     ///
     /// # Errors

@@ -7,6 +7,8 @@ use dashpot_plot::PlotError;
 use dashpot_scene::{Diagnostics, Fault, TableError, nearest, suggestion, units::parse_dimension};
 use thiserror::Error;
 
+use crate::signal::SignalError;
+
 /// Why a study did not do what it was asked for.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -75,6 +77,12 @@ pub enum StudyError {
     /// A run that cannot be done.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// Limits are to be enforced, and there is none.
+    #[error("`--enforce` has no limit to enforce")]
+    NoLimits,
+    /// Channels that cannot be read.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
     /// A figure that cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
@@ -82,6 +90,10 @@ pub enum StudyError {
     #[error("it was asked to end")]
     Ended,
 }
+
+/// What to do where there is no limit.
+pub const NO_LIMITS_HELP: &str =
+    "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`";
 
 impl StudyError {
     /// What is wrong with a setting of this name.
@@ -132,6 +144,7 @@ impl StudyError {
                 Some(format!("`{name}` is a parameter of `--test {}`", of_tests.join(",")))
             }
             Self::Quantity { fault, .. } => fault.help(),
+            Self::Signal(error) => error.help(),
             Self::MeasuredTable { fault, .. } => fault.help(),
             Self::Run(
                 RunError::NoMeasure { key, known } | RunError::UnknownMeasure { key, known },
@@ -153,6 +166,7 @@ impl StudyError {
             Self::Unreadable { .. } => {
                 "`dashpot new --out pad.toml` writes a scene to start from, `dashpot run` alone solves the built-in one"
             }
+            Self::NoLimits => NO_LIMITS_HELP,
             Self::NotLinear { .. } => {
                 "only linear models can be converted and compared; `dashpot rheometer` tests any model, and a scene \
                  runs it"

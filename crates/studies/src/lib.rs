@@ -34,18 +34,19 @@ pub mod origin;
 mod register;
 mod request;
 pub mod rheometer;
+pub mod signal;
 pub mod sketch;
 mod study;
 pub mod vibrate;
 
-pub use amount::{Amount, Assignment, Frequency, argument, assignment, setting};
+pub use amount::{Amount, Assignment, Frequency, Mass, Speed, Time, argument, assignment, setting};
 pub use answer::{Answer, Cell, DataTable, Outcome, csv};
 pub use context::{Context, Input, Progress, Remark, title};
-pub use error::{StudyError, is_unit, unquoted_help};
+pub use error::{NO_LIMITS_HELP, StudyError, is_unit, unquoted_help};
 pub use method::{Budget, MethodName, Repeats};
 pub use object::{Pairs, alike, each_once, list};
 pub use register::STUDIES;
-pub use request::{Given, Kind, OptionInfo, OptionValue, Request, Single};
+pub use request::{Given, Kind, OptionInfo, OptionValue, Request, Single, Whole};
 pub use study::{BUILT_IN, Operands, Study};
 
 /// Version of the program; also the mark of files that it wrote.

@@ -81,6 +81,8 @@ pub struct OptionInfo {
     pub default: &'static str,
     /// The option without which it does nothing; empty for none.
     pub requires: &'static str,
+    /// Another name of it; empty for none.
+    pub alias: &'static str,
     /// What is wrong with a value.
     pub check: fn(&Given) -> Result<(), String>,
 }
@@ -90,10 +92,10 @@ impl OptionInfo {
     pub const fn declared(
         (name, help, place): (&'static str, &'static [&'static str], &'static str),
         (kind, several): (Kind, Option<bool>),
-        (default, requires): (&'static str, &'static str),
+        (default, requires, alias): (&'static str, &'static str, &'static str),
         check: fn(&Given) -> Result<(), String>,
     ) -> Self {
-        Self { name, help, place, kind, several, default, requires, check }
+        Self { name, help, place, kind, several, default, requires, alias, check }
     }
 
     /// What it does, in one paragraph without a full stop at its end.
@@ -133,7 +135,8 @@ macro_rules! request {
         $visibility:vis $request:ident {
             $(
                 $(#[doc = $help:literal])+
-                $name:ident $place:literal: $kind:ty $(= $default:literal)? $(, requires $requires:literal)?;
+                $name:ident $place:literal: $kind:ty $(= $default:literal)? $(, requires $requires:literal)?
+                    $(, alias $alias:literal)?;
             )*
         }
     ) => {
@@ -154,7 +157,7 @@ macro_rules! request {
             const OPTIONS: &'static [$crate::OptionInfo] = &[$($crate::OptionInfo::declared(
                 (stringify!($name), &[$($help),+], $place),
                 (<$kind as $crate::OptionValue>::KIND, <$kind as $crate::OptionValue>::SEVERAL),
-                (concat!($(stringify!($default))?), concat!($($requires)?)),
+                (concat!($($default)?), concat!($($requires)?), concat!($($alias)?)),
                 |given| <$kind as $crate::OptionValue>::take(&mut <$kind>::default(), given),
             )),*];
 
@@ -232,6 +235,19 @@ impl Single for usize {
             Given::Number(number) if *number >= 0.0 && number.fract() == 0.0 => Ok(*number as Self),
             _ => Err(wanted()),
         }
+    }
+}
+
+/// A text with whatever commas.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Whole(pub String);
+
+impl Single for Whole {
+    const KIND: Kind = Kind::Text;
+    const IS_DIVIDED: bool = false;
+
+    fn of(given: &Given) -> Result<Self, String> {
+        String::of(given).map(Self)
     }
 }
 

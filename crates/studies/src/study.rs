@@ -19,6 +19,8 @@ pub enum Operands {
     Scene,
     /// Models or responses, each with its name in help texts and with what it is.
     Models(&'static [(&'static str, &'static str)]),
+    /// Files of measurements, one or more, with what they are.
+    Files(&'static str),
 }
 
 /// A study, for faces that know it by its word.

@@ -6,8 +6,7 @@ use dashpot_analysis::similarity::SimilarityError;
 use dashpot_design::cushion::NoCushion;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::suggestion;
-use dashpot_signal::{CfcFault, ChannelFault, SettingsFault};
-use dashpot_studies::StudyError;
+use dashpot_studies::{NO_LIMITS_HELP, StudyError};
 
 use super::CliError;
 use super::shards::MISSING_HELP;
@@ -26,10 +25,6 @@ impl CliError {
             Self::Study(error) => error.help(),
             Self::UnknownKind { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),
             Self::NotMeasurable { name, known, .. } => suggestion(name, "outputs", known),
-            Self::SignalLimit { known, meant, .. } => Some(match meant {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => format!("there are {}", known.join(", ")),
-            }),
             Self::TooFewScattered { least } => Some(format!("`--scatter {least}` or more")),
             Self::Variation(fault) => Some(fault.help()),
             Self::Listed { fault, .. } => Some(fault.help()),
@@ -48,9 +43,7 @@ impl CliError {
         Some(match self {
             Self::BeyondEnd { .. } => "give a time within it, or a longer `duration` in [run]",
             Self::Cushion(error) => cushion_help(error),
-            Self::NothingToKeep { .. } | Self::NoLimits => {
-                "write [limits] in the scene, or `--limit \"head.peak-acceleration<=250 g\"`"
-            }
+            Self::NothingToKeep { .. } => NO_LIMITS_HELP,
             Self::Shard { fault, .. } => fault.help(),
             Self::Interrupted { kept: 1.., .. } => "the same command goes on from there",
             Self::ColumnTaken { .. } => {
@@ -58,8 +51,6 @@ impl CliError {
             }
             Self::ShardsMissing { .. } => MISSING_HELP,
             Self::Contradiction { .. } => "change one of them, or leave it out",
-            Self::SignalSamples { fault, .. } => return sample_help(fault),
-            Self::Signal { fault, .. } => return signal_help(fault),
             Self::UnknownKind { .. } => "`dashpot list` names every kind",
             Self::Foreign { help, .. } | Self::TooLarge { help, .. } => *help,
             Self::Busy { .. } => "choose another folder for `--out`, or wait until it is done",
@@ -72,39 +63,6 @@ impl CliError {
             _ => return None,
         })
     }
-}
-
-/// What to do about samples that are no signal.
-fn sample_help(fault: &ChannelFault) -> Option<&'static str> {
-    Some(match fault {
-        ChannelFault::TimeBack { .. } => {
-            "the first column is that of time; sort the rows by it, and leave one of two rows of the same time; a file of \
-             several tests is to be cut into one for each"
-        }
-        ChannelFault::TooFew { .. } => "look whether the right file was exported, and whole",
-        _ => return None,
-    })
-}
-
-/// What to do about a channel that cannot be read as it is asked for.
-fn signal_help(fault: &SettingsFault) -> Option<&'static str> {
-    Some(match fault {
-        SettingsFault::NoRest => {
-            "give what the channel reads at rest, `--offset \"0.3 g\"`, or record from some ms before the pulse on"
-        }
-        SettingsFault::UnevenSteps { .. } => {
-            "`--rate \"20 kHz\"` reads the line between its samples at even steps"
-        }
-        SettingsFault::Rate(_) => "read a part of it, or take a lower `--rate`",
-        SettingsFault::NoTouch { .. } => "without `--touch` the record tells when it begins",
-        SettingsFault::Cfc(CfcFault::TooSlow { .. }) => {
-            "SAE J211 wants a sampling rate of ten times the class: take a lower class, or record faster"
-        }
-        SettingsFault::NothingLeft(_) => {
-            "look at the times of the record: without `--from`, `--to` and `--rate` they are printed"
-        }
-        _ => return None,
-    })
 }
 
 /// What to write where a scene is no drop onto a cushion.

@@ -15,7 +15,6 @@ use dashpot_network::driving_point::DrivingPointError;
 use dashpot_plot::PlotError;
 use dashpot_rheology::conversion::Unfit;
 use dashpot_scene::{ListedFault, TunableFault, Unwritable, VariationFault, nearest};
-use dashpot_signal::{ChannelFault, SettingsFault};
 use dashpot_thesis::ThesisError;
 use thiserror::Error;
 
@@ -61,9 +60,6 @@ pub(crate) enum CliError {
     /// So few scattered designs show no such probability, even if all of them keep everything.
     #[error("that probability takes {least} scattered designs or more to show")]
     TooFewScattered { least: f64 },
-    /// Limits are to be enforced, and there is none.
-    #[error("`--enforce` has no limit to enforce")]
-    NoLimits,
     /// What is made least is held by nothing.
     #[error("nothing holds `{name}`: there is no limit that a design has to keep")]
     NothingToKeep { name: String },
@@ -134,18 +130,6 @@ pub(crate) enum CliError {
     /// Something that nothing can be fitted to.
     #[error("`--to {text}`: {reason}")]
     Fit { text: String, reason: String },
-    /// A file with channels that cannot be read, or of which it is not clear what they are.
-    #[error("`{file}`: {reason}")]
-    SignalFile { file: String, reason: String },
-    /// Samples that are no signal.
-    #[error("`{file}`{}, channel `{channel}`: {fault}", .line.map_or_else(String::new, |own| format!(", line {own}")))]
-    SignalSamples { file: String, line: Option<usize>, channel: String, fault: Box<ChannelFault> },
-    /// A channel that cannot be read as it is asked for.
-    #[error("`{file}`, channel `{channel}`: {fault}")]
-    Signal { file: String, channel: String, fault: Box<SettingsFault> },
-    /// A limit on what no channel has.
-    #[error("no channel has the measure `{key}`")]
-    SignalLimit { key: String, known: Vec<String>, meant: Option<String> },
     /// An output that a scene does not have, or that cannot be measured.
     #[error("`{flag} {file}`: there is no `{name}` over time to stand beside")]
     NotMeasurable { flag: &'static str, file: String, name: String, known: Vec<String> },

@@ -12,7 +12,6 @@ mod groups;
 mod list;
 mod printed;
 pub(crate) mod run;
-mod signal;
 mod study;
 pub(crate) mod sweep;
 mod thesis;
@@ -77,8 +76,6 @@ pub(crate) enum Command {
     /// A study.
     #[command(flatten)]
     Study(study::StudyArguments),
-    /// Reads measured channels: offset, CFC filter, peak, HIC, clips, with the errors of sampling.
-    Signal(signal::SignalArguments),
     /// Solves a scene for many values of its numbers: tables, lines and maps of measures.
     Sweep(sweep::SweepArguments),
     /// Puts the shards of a sweep together: the bytes of one sweep, as if it had not been divided.
@@ -121,7 +118,6 @@ impl Command {
             Self::Explain(arguments) => explain::explain(arguments, terminal),
             Self::Convert(arguments) => convert::convert(arguments, terminal),
             Self::Study(arguments) => arguments.run(terminal),
-            Self::Signal(arguments) => signal::signal(arguments, terminal),
             Self::Sweep(arguments) => sweep::sweep(arguments, terminal),
             Self::Merge(arguments) => sweep::merged(arguments, terminal),
             Self::Design(arguments) => design::design(arguments, terminal),

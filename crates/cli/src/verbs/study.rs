@@ -29,6 +29,8 @@ const JSON: &str = "json";
 const PLOT: &str = "plot";
 /// The operand of a study of a scene.
 const OF_SCENE: &str = "scene";
+/// The operands of a study of files.
+const FILES: &str = "files";
 
 /// A study as it is asked for.
 pub(crate) struct StudyArguments {
@@ -66,6 +68,11 @@ fn command(study: &dyn AnyStudy) -> Command {
                     .help(SCENE),
             );
         }
+        Operands::Files(help) => {
+            let files = Arg::new(FILES).value_name("FILE").help(help).required(true);
+            let files = files.num_args(1..).action(ArgAction::Append);
+            command = command.arg(files.value_parser(value_parser!(OsString)));
+        }
         Operands::Models(operands) => {
             for (name, help) in operands {
                 let help = if help.is_empty() { MODEL } else { help };
@@ -75,7 +82,9 @@ fn command(study: &dyn AnyStudy) -> Command {
         }
     }
     command = command.args(study.options().iter().map(option));
-    command = ValueArguments::augment_args(command);
+    if has_values(study) {
+        command = ValueArguments::augment_args(command);
+    }
     if study.has_files() {
         let out = Arg::new(OUT).long(OUT).value_name("DIR").value_parser(value_parser!(PathBuf));
         command = command.arg(out.help(
@@ -93,11 +102,20 @@ fn command(study: &dyn AnyStudy) -> Command {
     command.about(study.about())
 }
 
+/// Whether values of what it is asked about can be set.
+fn has_values(study: &dyn AnyStudy) -> bool {
+    !matches!(study.operands(), Operands::Files(_))
+}
+
 fn option(info: &OptionInfo) -> Arg {
     let arg = Arg::new(info.name).long(info.flag()).help(info.about());
+    let arg = if info.alias.is_empty() { arg } else { arg.alias(info.alias) };
     let check = info.check;
     let arg = match info.kind {
-        Kind::Switch => return arg.action(ArgAction::SetTrue),
+        Kind::Switch => {
+            let arg = arg.action(ArgAction::SetTrue);
+            return if info.requires.is_empty() { arg } else { arg.requires(info.requires) };
+        }
         Kind::Words(words) => {
             let value = |(word, about)| match about {
                 "" => PossibleValue::new(word),
@@ -127,9 +145,11 @@ impl FromArgMatches for StudyArguments {
         let study = named(word).ok_or_else(unknown)?;
         let operands = match study.operands() {
             Operands::Scene => vec![OF_SCENE],
+            Operands::Files(_) => vec![FILES],
             Operands::Models(operands) => operands.iter().map(|operand| operand.0).collect(),
         };
-        let operands = operands.into_iter().filter_map(|name| matches.get_one::<OsString>(name));
+        let operands =
+            operands.into_iter().flat_map(|name| matches.get_many::<OsString>(name)).flatten();
         let is_given =
             |info: &&OptionInfo| matches.value_source(info.name) == Some(ValueSource::CommandLine);
         let mut given = Vec::new();
@@ -145,7 +165,11 @@ impl FromArgMatches for StudyArguments {
         Ok(Self {
             study,
             operands: operands.cloned().collect(),
-            set: ValueArguments::from_arg_matches(matches)?.set,
+            set: if has_values(study) {
+                ValueArguments::from_arg_matches(matches)?.set
+            } else {
+                Vec::new()
+            },
             given,
             out: if has_files { matches.get_one(OUT).cloned() } else { None },
             json: matches.get_flag(JSON),
@@ -201,6 +225,7 @@ impl StudyArguments {
             Outcome::Done => Status::Done,
             Outcome::Failed => Status::RunFailed,
             Outcome::NotSame => Status::NotSame,
+            Outcome::LimitNotKept => Status::LimitNotKept,
         })
     }
 }

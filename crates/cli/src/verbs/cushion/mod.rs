@@ -21,7 +21,7 @@ use self::{asked::Wanted, batches::Batches};
 use crate::{
     args::{NO_SCATTER, SceneArguments, method_names, probability, refuse},
     counts::{SCATTERED_SCENES, threads},
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::{Folder, Staged},
     input::title,
     operand::{print_notes, read_scene_of},
@@ -127,7 +127,7 @@ pub(crate) fn cushion(
     let scene = read_scene_of(&input, set, terminal)?;
     let wanted = Wanted::of(arguments, &scene, &input)?;
     if arguments.enforce && wanted.asked.limit.is_none() {
-        return Err(CliError::NoLimits);
+        return Err(StudyError::NoLimits.into());
     }
     let folder = Folder::wanted(arguments.out.as_deref(), files::names(&wanted.asked))?;
     let all = || available_parallelism().map_or(1, NonZero::get);

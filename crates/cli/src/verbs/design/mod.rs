@@ -251,7 +251,7 @@ fn check_posed(arguments: &DesignArguments, posing: &Posing<'_>) -> Result<(), C
         refuse(&["--points"], "it is of a front of two aims, `--least` and `--and`")?;
     }
     if has_none && arguments.enforce {
-        return Err(CliError::NoLimits);
+        return Err(StudyError::NoLimits.into());
     }
     match arguments.robust.map(Odds::least_designs) {
         Some(least) if least > arguments.scatter as f64 => Err(CliError::TooFewScattered { least }),

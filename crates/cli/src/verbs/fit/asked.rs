@@ -9,7 +9,7 @@ use dashpot_signal::Cfc;
 
 use super::{pressed::times, target::is_output};
 use crate::{
-    args::{frequency_class, share},
+    args::{share, single},
     error::CliError,
     input::setting,
     output::list,
@@ -62,7 +62,7 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
         let at = set.iter().position(|own| own.0 == word)?;
         Some(set.remove(at).1)
     };
-    let cfc = take("cfc").map(|own| frequency_class(&own)).transpose()?;
+    let cfc = take("cfc").map(|own| single::<Cfc>(&own)).transpose()?;
     let gain = take("gain").map(|own| share(&own)).transpose()?;
     let noise = take("noise");
     let scale = take("scale").map_or(Ok(1.0), |own| own.trim().parse::<f64>().map_err(|_| own));

@@ -33,7 +33,7 @@ use self::{
     words::{Units, branches, comments, determined, ends, notes, records, warnings},
 };
 use crate::{
-    args::{Switch, ValueArguments, frequency_class, paddings, share, shift},
+    args::{Switch, ValueArguments, paddings, share, shift, single},
     counts::STARTS,
     error::{CliError, Status, StudyError},
     folder::Staged,
@@ -103,7 +103,7 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "PART", value_parser = share)]
     gain: Option<f64>,
     /// The channel frequency class that the records went through: the output of the scene goes through the same filter.
-    #[arg(long, value_name = "CLASS", value_parser = frequency_class)]
+    #[arg(long, value_name = "CLASS", value_parser = single::<Cfc>)]
     cfc: Option<Cfc>,
     /// What stood beyond the ends of a record for its filter [default: odd].
     #[arg(long, value_name = "MODE", value_parser = paddings())]

@@ -14,11 +14,11 @@ use super::{columns::Columns, compared::Numbers, recorded::Recorded};
 use crate::{
     args,
     error::{CliError, StudyError},
+    operand::Files,
     output::list,
-    verbs::signal::mme,
 };
 use dashpot_report::numbers::constant;
-use dashpot_studies::{measured::MeasuredFile, origin};
+use dashpot_studies::{measured::MeasuredFile, origin, signal::mme};
 
 /// Which measured curves stand beside the runs.
 #[derive(Debug, Args)]
@@ -40,7 +40,7 @@ pub(super) struct MeasuredArguments {
     shift: Option<f64>,
     /// The channel frequency class that the measured curves went through: what the model says at their times goes
     /// through it as well [default: that of the code of an ISO-MME channel, else none].
-    #[arg(long, value_name = "CLASS", requires = "measured", value_parser = args::frequency_class)]
+    #[arg(long, value_name = "CLASS", requires = "measured", value_parser = args::single::<Cfc>)]
     cfc: Option<Cfc>,
 }
 
@@ -202,8 +202,8 @@ impl MeasuredCurve {
         };
         let sha256 = origin::of_file(name, &crate::input::load).unwrap_or_default();
         let file = name.to_owned();
-        if mme::is_one(Path::new(name)) {
-            let channels = mme::read(Path::new(name))?;
+        if mme::is_one(name, &Files) {
+            let channels = mme::read(name, &Files)?;
             let (at, output) = chosen(&Columns::of_test((flag, name), &channels))?;
             let own = &channels[at];
             let samples = own.channel.times().iter().zip(own.channel.values());

@@ -15,14 +15,9 @@ use super::{
     beside::{Beside, MeasuredCurve, dimension},
     deviations::Compared,
 };
-use crate::{
-    output::{Pairs, list, object},
-    verbs::signal::{
-        object::{number, warning},
-        words::{shown, unit_of},
-    },
-};
+use crate::output::{Pairs, list, object};
 use dashpot_report::numbers::{percent_signed, quantity};
+use dashpot_studies::signal::{number, shown, unit_of, warning};
 
 const DIGITS: usize = 3;
 

@@ -62,7 +62,7 @@ use crate::{
         LimitArguments, MethodNames, NO_SCATTER, Switch, ValueArguments, Variant, When,
         method_names, refuse, share, single, time, variant,
     },
-    error::{CliError, Status},
+    error::{CliError, Status, StudyError},
     folder::{Folder, Staged},
     input::title,
     output::{Study, Text, emit, list},
@@ -285,7 +285,7 @@ impl Answer {
 pub(crate) fn run(arguments: &RunArguments, terminal: Terminal) -> Result<Status, CliError> {
     let scenes = designs::scenes(arguments, terminal)?;
     if arguments.enforce && scenes.iter().all(|own| own.scene.limits.is_empty()) {
-        return Err(CliError::NoLimits);
+        return Err(StudyError::NoLimits.into());
     }
     check_options(arguments, &scenes)?;
     for own in scenes.iter().filter(|_| arguments.curves) {

@@ -93,7 +93,7 @@ fn solved_or_merged(
     let scene_point = |posed: Posed| arguments.scene_point(posed, &further);
     let keys: Vec<String> = arguments.measure.iter().map(|own| own.trim().to_owned()).collect();
     if arguments.enforce && scene.limits.is_empty() && further.is_empty() {
-        return Err(CliError::NoLimits);
+        return Err(StudyError::NoLimits.into());
     }
     let (columns, wishes) = columns(&scene_point(scene.clone().into())?, &keys)?;
     let hash = shards::fingerprint(arguments, &scene, &columns);

@@ -1,19 +1,14 @@
 //! Tests in ISO-MME: an `.mme` file with its folder, the folder, or a zip of it.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
+use std::{io, path::Path};
 
 use dashpot_scene::table_text;
 use dashpot_signal::iso_mme::{self, MmeChannel};
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_with_limit};
 use rawzip::{CompressionMethod, ZipArchive};
 
-use crate::{
-    error::{CliError, reason},
-    input::bytes_of,
-};
+use super::SignalError;
+use crate::{Context, StudyError};
 
 /// A test has at most so many channels.
 const MOST_FILES: usize = 1000;
@@ -27,12 +22,16 @@ const MOST_TOGETHER: usize = 256 << 20;
 type Part = (String, Vec<u8>);
 
 /// Whether a path is a test in ISO-MME.
-pub(in crate::verbs) fn is_one(path: &Path) -> bool {
-    path.is_dir() || has_ending(path, "mme") || has_ending(path, "zip")
+pub fn is_one(path: &str, context: &dyn Context) -> bool {
+    has_ending(path, "mme") || has_ending(path, "zip") || context.folder(path).is_some()
 }
 
-fn has_ending(path: &Path, ending: &str) -> bool {
-    path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
+fn has_ending(path: &str, ending: &str) -> bool {
+    Path::new(path).extension().is_some_and(|own| own.eq_ignore_ascii_case(ending))
+}
+
+fn file_name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// Whether a name ends in the number of a channel: `drop.001`.
@@ -42,10 +41,15 @@ fn is_channel(name: &str) -> bool {
 }
 
 /// Reads the channels of a test.
-pub(in crate::verbs) fn read(path: &Path) -> Result<Vec<MmeChannel>, CliError> {
-    let file = path.to_string_lossy().into_owned();
-    let wrong = |reason: String| CliError::SignalFile { file: file.clone(), reason };
-    let parts = if has_ending(path, "zip") { of_zip(path) } else { of_folder(path) };
+///
+/// # Errors
+///
+/// [`SignalError::File`].
+pub fn read(path: &str, context: &dyn Context) -> Result<Vec<MmeChannel>, StudyError> {
+    let file = path.to_owned();
+    let wrong = |reason: String| StudyError::from(SignalError::File { file: file.clone(), reason });
+    let parts =
+        if has_ending(path, "zip") { of_zip(path, context) } else { of_folder(path, context) };
     let mut parts = parts.map_err(wrong)?;
     parts.sort();
     if parts.is_empty() {
@@ -66,48 +70,44 @@ pub(in crate::verbs) fn read(path: &Path) -> Result<Vec<MmeChannel>, CliError> {
 }
 
 /// The channels in the folder of a test, or in `Channel` within it.
-fn of_folder(path: &Path) -> Result<Vec<Part>, String> {
-    let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new("")) };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    if !path.is_dir() && !path.is_file() {
-        return Err("there is no such file".to_owned());
-    }
-    let mut files: Vec<PathBuf> = Vec::new();
-    let is_within = |own: &Path| {
-        own.is_dir() && own.file_name().is_some_and(|name| name.eq_ignore_ascii_case("channel"))
+fn of_folder(path: &str, context: &dyn Context) -> Result<Vec<Part>, String> {
+    let entries = match context.folder(path) {
+        Some(entries) => entries?,
+        None if context.has(path) => {
+            let folder =
+                Path::new(path).parent().map_or("", |parent| parent.to_str().unwrap_or(""));
+            let folder = if folder.is_empty() { "." } else { folder };
+            context.folder(folder).unwrap_or(Ok(Vec::new()))?
+        }
+        None => return Err("there is no such file".to_owned()),
     };
-    let entries = |folder: &Path| -> Result<Vec<PathBuf>, String> {
-        let unreadable = |error: io::Error| format!("`{}`: {}", folder.display(), reason(&error));
-        let all = fs::read_dir(folder).map_err(unreadable)?;
-        all.map(|own| own.map(|own| own.path()).map_err(unreadable)).collect()
-    };
-    for own in entries(folder)? {
-        if is_within(&own) {
-            files.extend(entries(&own)?);
-        } else {
-            files.push(own);
+    let mut files: Vec<String> = Vec::new();
+    for entry in entries {
+        match context.folder(&entry) {
+            Some(within) if file_name(&entry).eq_ignore_ascii_case("channel") => {
+                files.extend(within?);
+            }
+            _ => files.push(entry),
         }
     }
-    let name = |own: &Path| {
-        own.file_name().map_or_else(String::new, |own| own.to_string_lossy().into_owned())
-    };
-    let files: Vec<PathBuf> = files.into_iter().filter(|own| is_channel(&name(own))).collect();
+    files.retain(|file| is_channel(&file_name(file)));
     if files.len() > MOST_FILES {
         return Err(too_many());
     }
     let mut left = MOST_TOGETHER;
-    let read = |own: &PathBuf| {
-        let bytes = bytes_of(own).map_err(|error| format!("{}: {}", name(own), reason(&error)))?;
+    let read = |file: &String| {
+        let name = file_name(file);
+        let bytes = context.load(file).map_err(|reason| format!("{name}: {reason}"))?;
         let shorter = left.checked_sub(bytes.len());
         left = shorter.ok_or("all its channels are together longer than 256 MB")?;
-        Ok((name(own), bytes))
+        Ok((name, bytes))
     };
     files.iter().map(read).collect()
 }
 
 /// The channels in a zip, wherever they stand in it.
-fn of_zip(path: &Path) -> Result<Vec<Part>, String> {
-    let bytes = bytes_of(path).map_err(|error| format!("it cannot be read: {}", reason(&error)))?;
+fn of_zip(path: &str, context: &dyn Context) -> Result<Vec<Part>, String> {
+    let bytes = context.load(path).map_err(|reason| format!("it cannot be read: {reason}"))?;
     let wrong = |error: rawzip::Error| format!("it is no zip that can be read: {error}");
     let archive = ZipArchive::from_slice(&bytes).map_err(wrong)?;
     let (mut entries, mut files) = (archive.entries(), Vec::new());

@@ -1,26 +1,26 @@
-//! What `signal` draws, and what it writes into a folder.
+//! Channels as tables, figures and in words.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use dashpot_network::parameters::Dimension;
 use dashpot_plot::{Chart, Marker, Pattern, Series, Stroke};
-use dashpot_report::{Page, ReportFigure, Table};
-use dashpot_signal::{Analysis, Band, Measure};
+use dashpot_report::{
+    Block, Line, Place, Report, Table,
+    numbers::{Unit, quantity},
+};
+use dashpot_signal::{Analysis, Band, Measure, Reading};
 use dashpot_units::si_unit;
 
 use super::{
     Group, Signal, Signals,
     words::{self, heading, repeats, table, treatment, unit},
 };
-use crate::{
-    error::CliError,
-    folder::Staged,
-    output::{PAGE, VERSION, csv, list},
-};
-use dashpot_report::numbers::{Unit, quantity};
+use crate::{Cell, DataTable, VERSION, list};
 
 /// All measures of all channels.
 const MEASURES: &str = "measures.csv";
+/// More figures are not plotted in texts.
+const MOST_PLOTTED: usize = 2;
 /// Milliseconds in a second.
 const MS: f64 = 1e3;
 /// Colour of the band about the mean.
@@ -29,10 +29,11 @@ const BAND: usize = 5;
 const DIGITS: usize = 4;
 
 /// What files of results are named by: the names of files without folder and ending, each once.
-pub(super) fn stems(files: &[PathBuf]) -> Vec<String> {
+pub(super) fn stems(files: &[String]) -> Vec<String> {
     let mut stems: Vec<String> = Vec::new();
     for file in files {
-        let name = file.file_stem().map_or("signal".into(), |own| own.to_string_lossy());
+        let name =
+            Path::new(file).file_stem().map_or("signal".into(), |stem| stem.to_string_lossy());
         let is_plain = |own: char| own.is_alphanumeric() || matches!(own, '-' | '_');
         let stem: String = name.chars().map(|own| if is_plain(own) { own } else { '-' }).collect();
         let is_known = |own: &str| stems.iter().any(|known| known == own);
@@ -44,12 +45,47 @@ pub(super) fn stems(files: &[PathBuf]) -> Vec<String> {
     stems
 }
 
-/// The files that are written besides the result.
-pub(super) fn names(signals: &Signals) -> Vec<String> {
-    let records = records(signals).into_iter().map(|own| own.0);
-    let figures = signals.groups().len();
-    let figures = (1..=figures).map(|at| format!("channel-{at}.svg"));
-    records.chain(figures).chain([MEASURES.to_owned(), PAGE.to_owned()]).collect()
+/// The files that are written besides the object and the page.
+pub(super) fn files(signals: &Signals) -> Vec<String> {
+    let records = records(signals).into_iter().map(|record| record.0);
+    let figures = (1..=signals.groups().len()).map(figure);
+    records.chain(figures).chain([MEASURES.to_owned()]).collect()
+}
+
+fn figure(number: usize) -> String {
+    format!("channel-{number}.svg")
+}
+
+/// Everything that is said of them.
+pub(super) fn report(signals: &Signals) -> Report {
+    let groups = signals.groups();
+    let names: Vec<&str> = groups.iter().map(|group| group.name).collect();
+    let mut report = Report::titled(format!("Measured: {}", names.join(", ")));
+    report.warnings = words::warnings(signals);
+    report.verdict = list(signals.verdicts().iter().map(|verdict| {
+        let (label, text) = words::judged(verdict);
+        Line { label: label.to_owned(), text: format!("{}: {text}", verdict.signal.file) }
+    }));
+    for signal in &signals.all {
+        let (heading, table) = (heading(signal), table(&signal.analysis));
+        let treated = treatment(&signal.analysis);
+        report.block(Place::Terminals, Block::Heading(heading.clone(), String::new()));
+        report.block(Place::Terminals, Block::Notes(treated.clone()));
+        report.block(Place::Terminals, Block::Numbers(table.clone()));
+        report.block(Place::Pages, Block::Table(Table { caption: heading.clone(), ..table }));
+        report.details.push(Table::list(heading, treated));
+    }
+    report.tables(groups.iter().map(repeats));
+    for (at, group) in groups.iter().enumerate() {
+        if groups.len() <= MOST_PLOTTED {
+            report.plot(figure(at + 1), chart(group));
+        } else {
+            report.figure(figure(at + 1), chart(group));
+        }
+    }
+    report.details.push(Table::plain("Settings", [vec!["dashpot".to_owned(), VERSION.to_owned()]]));
+    report.details.push(Table::list("Notes", signals.notes.iter().cloned()));
+    report
 }
 
 /// The channels of one file that have the same times, with the name of their table.
@@ -71,28 +107,25 @@ fn records(signals: &Signals) -> Vec<(String, Vec<&Signal>)> {
     records
 }
 
-/// Adds all files but the result.
-pub(super) fn write(files: &mut Staged<'_>, signals: &Signals) -> Result<(), CliError> {
-    for (name, record) in records(signals) {
-        let columns: Vec<(String, &[f64])> = record.iter().flat_map(|own| columns(own)).collect();
-        let times = record.first().map_or(&[][..], |own| own.analysis.channel.times());
-        let header =
-            ["time [s]".to_owned()].into_iter().chain(columns.iter().map(|own| own.0.clone()));
-        let row = |at: usize| {
-            let values = columns.iter().map(move |own| own.1.get(at).copied());
-            list([times.get(at).copied()].into_iter().chain(values))
-        };
-        files.add_with(name, |out| csv(out, header, (0..times.len()).map(row)))?;
-    }
+/// The channels over time, file by file, and all measures.
+pub(super) fn tables(signals: &Signals) -> Vec<DataTable<'_>> {
     let header =
         ["file", "measure", "value", "error", "unit", "on samples", "bound"].map(str::to_owned);
-    files.add_with(MEASURES, |out| csv(out, header, signals.all.iter().flat_map(rows)))?;
-    let figures: Vec<ReportFigure> =
-        charts(signals).iter().map(ReportFigure::of).collect::<Result<_, _>>()?;
-    for (at, own) in figures.iter().enumerate() {
-        files.add(format!("channel-{}.svg", at + 1), &own.svg)?;
-    }
-    files.add(PAGE, page(signals, figures).html())
+    let rows = Box::new(signals.all.iter().flat_map(rows));
+    let measures = DataTable { file: MEASURES.to_owned(), header: header.to_vec(), rows };
+    list(records(signals).into_iter().map(over_time).chain([measures]))
+}
+
+/// Channels of the same times.
+fn over_time((file, record): (String, Vec<&Signal>)) -> DataTable<'_> {
+    let times = record.first().map_or(&[][..], |signal| signal.analysis.channel.times());
+    let (names, columns): (Vec<String>, Vec<_>) = record.into_iter().flat_map(columns).unzip();
+    let header = ["time [s]".to_owned()].into_iter().chain(names).collect();
+    let row = move |(at, time): (usize, &f64)| {
+        let values = columns.iter().map(|column| column.get(at).copied());
+        [Some(*time)].into_iter().chain(values).map(Cell::Number).collect()
+    };
+    DataTable { file, header, rows: Box::new(times.iter().enumerate().map(row)) }
 }
 
 /// What is known of a channel over time, in SI units.
@@ -109,23 +142,26 @@ fn columns(own: &Signal) -> Vec<(String, &[f64])> {
     all
 }
 
-fn rows(own: &Signal) -> Vec<impl serde::Serialize + use<>> {
-    let channel = &own.analysis.channel;
-    let row = |reading: &dashpot_signal::Reading| {
+fn rows(signal: &Signal) -> Vec<Vec<Cell>> {
+    let channel = &signal.analysis.channel;
+    let row = |reading: &Reading| {
         let unit = si_unit(reading.measure.dimension(channel.dimension()));
         let key = format!("{}.{}", channel.name(), reading.measure.word());
-        let value = reading.value.ok();
-        let (bar, bound) = (reading.bar(), reading.truth.word());
-        (own.file.clone(), key, value, bar, unit, reading.on_samples, bound)
+        let bound = reading.truth.word();
+        vec![
+            Cell::Text(signal.file.clone()),
+            Cell::Text(key),
+            Cell::Number(reading.value.ok()),
+            Cell::Number(reading.bar()),
+            Cell::Text(unit),
+            Cell::Number(reading.on_samples),
+            bound.map_or(Cell::Number(None), |bound| Cell::Text(bound.to_owned())),
+        ]
     };
-    list(own.analysis.readings.iter().map(row))
+    list(signal.analysis.readings.iter().map(row))
 }
 
 /// One figure for each name of a channel, with all its tests.
-fn charts(signals: &Signals) -> Vec<Chart> {
-    signals.groups().iter().map(chart).collect()
-}
-
 fn chart(group: &Group<'_>) -> Chart {
     let (name, tests) = (group.name, group.analyses());
     let (dimension, largest) = tests.iter().fold((Dimension::NUMBER, 0.0_f64), |best, own| {
@@ -227,31 +263,4 @@ fn shown(tests: &[&Analysis]) -> (f64, f64) {
     });
     let all = around.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     all.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
-}
-
-fn page(signals: &Signals, figures: Vec<ReportFigure>) -> Page {
-    let names: Vec<&str> = signals.groups().iter().map(|own| own.name).collect();
-    let verdicts = signals.verdicts();
-    let verdict = verdicts.iter().map(|own| {
-        let (label, text) = words::judged(own);
-        format!("{label}: {}: {text}", own.signal.file)
-    });
-    let of_each =
-        signals.all.iter().map(|own| Table { caption: heading(own), ..table(&own.analysis) });
-    let groups = signals.groups();
-    let of_all = groups.iter().map(repeats);
-    let treated = signals.all.iter().map(|own| Table::list(heading(own), treatment(&own.analysis)));
-    let version = Table::plain("Settings", [vec!["dashpot".to_owned(), VERSION.to_owned()]]);
-    Page {
-        title: format!("Measured: {}", names.join(", ")),
-        warnings: words::warnings(signals),
-        verdict: verdict.collect(),
-        tables: of_each.chain(of_all).filter(|own| !own.rows.is_empty()).collect(),
-        figures,
-        details: treated
-            .chain([version, Table::list("Notes", signals.notes.iter().cloned())])
-            .filter(|own| !own.rows.is_empty())
-            .collect(),
-        ..Page::default()
-    }
 }

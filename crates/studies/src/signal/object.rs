@@ -6,7 +6,7 @@ use dashpot_units::{Dimension, si_unit};
 use serde::Serialize;
 
 use super::{Group, Signal, Signals, limits::Verdict, words::polarity};
-use crate::output::{Pairs, VERSION, list, object};
+use crate::{Pairs, VERSION, list, object};
 
 pub(super) fn of(signals: &Signals) -> impl Serialize {
     object! {
@@ -65,12 +65,12 @@ fn channel(signal: &Signal) -> impl Serialize {
 }
 
 /// What is wrong with a channel.
-pub(in crate::verbs) fn warning(own: &Defect) -> impl Serialize + use<> {
+pub fn warning(own: &Defect) -> impl Serialize + use<> {
     object! { code: own.code(), text: own.to_string() }
 }
 
 /// A number read off a channel of this dimension; one that is a bound, `at-least` or `at-most`, has no error.
-pub(in crate::verbs) fn number(channel: Dimension, reading: &Reading) -> impl Serialize + use<> {
+pub fn number(channel: Dimension, reading: &Reading) -> impl Serialize + use<> {
     object! {
         value: reading.value.ok(),
         unit: si_unit(reading.measure.dimension(channel)),

@@ -8,8 +8,9 @@ use dashpot_signal::{
 };
 use dashpot_units::{parse_dimension, si_unit};
 
+use super::SignalError;
 use super::{Signal, Signals};
-use crate::error::{CliError, StudyError};
+use crate::{Given, Kind, Single, StudyError};
 
 /// Words of measures of signals, with those of scenes that say the same.
 const SAME: [(&str, &[&str]); 4] = [
@@ -20,11 +21,20 @@ const SAME: [(&str, &[&str]); 4] = [
 ];
 
 /// Limits that one argument states, each with the channel and the measure of signals in its key.
-#[derive(Debug, Clone)]
-pub(super) struct Parsed(pub(super) Vec<Stated>);
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelLimits(pub(super) Vec<Stated>);
+
+impl Single for ChannelLimits {
+    const KIND: Kind = Kind::Text;
+    const IS_DIVIDED: bool = false;
+
+    fn of(given: &Given) -> Result<Self, String> {
+        parse(&String::of(given)?)
+    }
+}
 
 /// A limit as it is stated.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stated {
     limit: Limit,
     /// The quantity or the standard, as it is written.
@@ -105,7 +115,7 @@ fn judge(own: &Reading, bound: Bound, reason: Option<Reason>) -> Judgement {
 }
 
 /// The limits of an argument: those of scenes, and on the measures of signals.
-pub(super) fn parse(text: &str) -> Result<Parsed, String> {
+fn parse(text: &str) -> Result<ChannelLimits, String> {
     let place = text.find(['<', '>', '=']).unwrap_or(text.len());
     let (key, rest) = text.split_at(place);
     let (key, level) = (key.trim(), rest.trim_start_matches(['<', '>', '=']).trim());
@@ -134,7 +144,7 @@ pub(super) fn parse(text: &str) -> Result<Parsed, String> {
     let mut fault = None;
     for word in same.unwrap_or(&[word]) {
         match parse_limits(&format!("{channel}.{word}{rest}")) {
-            Ok(list) => return Ok(Parsed(list.into_iter().map(own).collect())),
+            Ok(list) => return Ok(ChannelLimits(list.into_iter().map(own).collect())),
             Err(message) => {
                 let bare = || parse_limits(&format!("{word}{rest}")).err();
                 let bare = if channel.is_empty() { bare() } else { None };
@@ -151,7 +161,7 @@ pub(super) fn parse(text: &str) -> Result<Parsed, String> {
     let other = parse_quantity(level).ok().filter(|own| own.dimension.is_some());
     match bound.zip(other).filter(|_| word == Measure::Peak.word() && !channel.is_empty()) {
         Some((bound, own)) => {
-            Ok(Parsed(vec![stated(Limit::new(key, bound(own.value)), own.dimension)]))
+            Ok(ChannelLimits(vec![stated(Limit::new(key, bound(own.value)), own.dimension)]))
         }
         None => Err(fault.unwrap_or_default()),
     }
@@ -185,7 +195,7 @@ fn is_it(limit: &Limit, measure: Measure, dimension: Dimension) -> bool {
 }
 
 /// Refuses a limit on what no channel has, or in what its measure is not.
-pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
+pub(super) fn known(signals: &Signals) -> Result<(), StudyError> {
     for Stated { limit, level, dimension } in &signals.limits {
         let found = signals.readings(limit);
         let of =
@@ -198,7 +208,7 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
                 None => format!("`{level}` is {}, in {}", given.0, given.1),
             };
             let reason = format!("`{}` is {own}, in {units}, and {given}", limit.key);
-            return Err(StudyError::WrongSetting { name: "--limit".to_owned(), reason }.into());
+            return Err(StudyError::setting("--limit", reason));
         }
         if !found.is_empty() {
             continue;
@@ -220,7 +230,7 @@ pub(super) fn known(signals: &Signals) -> Result<(), CliError> {
         } else {
             nearest(&key, known.iter().map(String::as_str)).map(str::to_owned)
         };
-        return Err(CliError::SignalLimit { key, known, meant });
+        return Err(SignalError::Limit { key, known, meant }.into());
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use dashpot_signal::{
 use dashpot_units::si_unit;
 
 use super::{Group, Signal, Signals, limits::Verdict};
-use crate::output::{Text, list};
+use crate::list;
 use dashpot_report::numbers::{
     MOST_DIGITS, Unit, bound, digits, percent_signed, quantity, share, significant,
 };
@@ -31,7 +31,8 @@ pub(super) fn unit(value: f64, dimension: Dimension) -> Unit {
     Unit::suiting(value, &si_unit(dimension))
 }
 
-pub(in crate::verbs) fn unit_of(measure: Measure, value: f64, channel: Dimension) -> Unit {
+/// The unit in which a measure of about this value is shown; `channel` is what the channel measures.
+pub fn unit_of(measure: Measure, value: f64, channel: Dimension) -> Unit {
     if measure.is_index() { Unit::plain("1") } else { unit(value, measure.dimension(channel)) }
 }
 
@@ -43,30 +44,6 @@ pub(super) fn warnings(signals: &Signals) -> Vec<String> {
         all.map(move |defect| format!("{place}: {defect}")).collect::<Vec<_>>()
     };
     signals.all.iter().flat_map(of).collect()
-}
-
-pub(super) fn text(signals: &Signals, text: &mut Text) {
-    text.warnings(&warnings(signals));
-    let verdicts = signals.verdicts();
-    for (at, own) in signals.all.iter().enumerate() {
-        if at > 0 {
-            text.blank();
-        }
-        text.title(&heading(own));
-        treatment(&own.analysis).iter().for_each(|line| text.faint(line));
-        let lines: Vec<(&str, String)> = verdicts
-            .iter()
-            .filter(|verdict| std::ptr::eq(verdict.signal, own))
-            .map(judged)
-            .collect();
-        if !lines.is_empty() {
-            text.blank();
-            let width = lines.iter().map(|own| own.0.len()).max().unwrap_or(0);
-            lines.iter().for_each(|(label, words)| text.labelled(label, width, words));
-        }
-        text.figures(&table(&own.analysis));
-    }
-    signals.groups().iter().for_each(|own| text.table(&repeats(own)));
 }
 
 /// Mean and scatter of several tests.
@@ -191,7 +168,7 @@ pub(super) fn table(own: &Analysis) -> Table {
 }
 
 /// Value and error of a reading in a unit, or a bound and its word.
-pub(in crate::verbs) fn shown(reading: &Reading, value: f64, unit: &Unit) -> (String, String) {
+pub fn shown(reading: &Reading, value: f64, unit: &Unit) -> (String, String) {
     match reading.truth.word() {
         None => {
             let relative = if value == 0.0 { 0.0 } else { reading.error / value.abs() };
@@ -315,7 +292,7 @@ pub(super) fn judged(own: &Verdict<'_>) -> (&'static str, String) {
 }
 
 /// A bound in digits that say no more than it does: rounded to the side on which the truth is not.
-pub(in crate::verbs) fn cautious(bound: f64, truth: Truth, unit: &Unit) -> f64 {
+fn cautious(bound: f64, truth: Truth, unit: &Unit) -> f64 {
     let shown = unit.of(bound);
     let step = 10_f64.powf(shown.abs().log10().floor() + 1.0 - DIGITS as f64);
     let rounded = match truth {

@@ -1,7 +1,5 @@
 //! Which columns of a file are times and channels.
 
-use std::path::Path;
-
 use dashpot_network::parameters::Dimension;
 use dashpot_scene::{DataTable, LeftOut, TableError, table_text, units::parse_quantity};
 use dashpot_signal::{
@@ -9,11 +7,8 @@ use dashpot_signal::{
     iso_mme::{ChannelCode, MmeChannel},
 };
 
-use super::{SignalArguments, mme};
-use crate::{
-    error::{CliError, StudyError, reason},
-    input::bytes_of,
-};
+use super::{SignalError, SignalRequest, mme};
+use crate::{Context, StudyError};
 
 /// What is measured in impact tests, in the order in which it is looked for.
 const MEASURED: [Dimension; 2] = [Dimension::ACCELERATION, Dimension::FORCE];
@@ -84,23 +79,25 @@ enum Samples<'t> {
 type Chosen = (usize, Option<String>);
 
 /// Reads a file.
-pub(super) fn read(path: &Path, wanted: &SignalArguments) -> Result<Record, CliError> {
-    let name = path.to_string_lossy();
-    let file = &*name;
-    if mme::is_one(path) {
+pub(super) fn read(
+    file: &str,
+    wanted: &SignalRequest,
+    context: &dyn Context,
+) -> Result<Record, StudyError> {
+    if mme::is_one(file, context) {
         if !wanted.units.is_empty() {
             return Err(no_units(file));
         }
-        let all = mme::read(path)?;
+        let all = mme::read(file, context)?;
         let columns = all.iter().map(Column::of_test).collect();
         let source = Source { file, columns, samples: Samples::Test(all) };
         return source.record(wanted, Vec::new());
     }
-    let unreadable = |error| CliError::SignalFile {
+    let unreadable = |reason| SignalError::File {
         file: file.to_owned(),
-        reason: format!("it cannot be read: {}", reason(&error)),
+        reason: format!("it cannot be read: {reason}"),
     };
-    let bytes = bytes_of(path).map_err(unreadable)?;
+    let bytes = context.load(file).map_err(unreadable)?;
     let text = table_text(&bytes);
     let table = DataTable::read(&text).map_err(|fault| in_table(file, fault))?;
     let notes = LeftOut::of(&table).map(|own| own.to_string()).into_iter().collect();
@@ -108,7 +105,7 @@ pub(super) fn read(path: &Path, wanted: &SignalArguments) -> Result<Record, CliE
     let columns: Vec<Column> =
         (0..table.columns()).map(|at| Column::of_table(&table, at, &wanted.units)).collect();
     let time = columns.iter().position(|own| own.dimension == Some(Dimension::TIME));
-    let step = wanted.rate.map_or(1.0, f64::recip);
+    let step = wanted.rate.map_or(1.0, |rate| rate.0.recip());
     let source = Source { file, columns, samples: Samples::Table { table, time, step } };
     if time.is_none() && wanted.rate.is_none() {
         return Err(source.unclear(format!(
@@ -121,17 +118,17 @@ pub(super) fn read(path: &Path, wanted: &SignalArguments) -> Result<Record, CliE
 }
 
 /// `--units` of a file that says them all.
-fn no_units(file: &str) -> CliError {
+fn no_units(file: &str) -> StudyError {
     let reason = format!("`{file}` says the units of all its channels");
-    StudyError::WrongSetting { name: "--units".to_owned(), reason }.into()
+    StudyError::setting("--units", reason)
 }
 
-fn in_table(file: &str, fault: TableError) -> CliError {
-    StudyError::MeasuredTable { file: file.to_owned(), fault: Box::new(fault) }.into()
+fn in_table(file: &str, fault: TableError) -> StudyError {
+    StudyError::MeasuredTable { file: file.to_owned(), fault: Box::new(fault) }
 }
 
 /// Refuses units of columns that say another one, or that are not there, and of a file that says them all.
-fn units_are_wanted(file: &str, table: &DataTable<'_>, units: &[String]) -> Result<(), CliError> {
+fn units_are_wanted(file: &str, table: &DataTable<'_>, units: &[String]) -> Result<(), StudyError> {
     let count = table.columns();
     let given = units.iter().map(|own| own.trim()).enumerate();
     for (at, given) in given.filter(|own| !own.1.is_empty()) {
@@ -144,7 +141,7 @@ fn units_are_wanted(file: &str, table: &DataTable<'_>, units: &[String]) -> Resu
             Some(_) => continue,
         };
         let reason = format!("`{file}`: {reason}");
-        return Err(StudyError::WrongSetting { name: "--units".to_owned(), reason }.into());
+        return Err(StudyError::setting("--units", reason));
     }
     let is_known = (0..count).all(|at| table.heading(at).unit.is_some());
     if is_known && !units.is_empty() { Err(no_units(file)) } else { Ok(()) }
@@ -184,8 +181,8 @@ impl Column {
 }
 
 impl Source<'_, '_> {
-    fn unclear(&self, reason: String) -> CliError {
-        CliError::SignalFile { file: self.file.to_owned(), reason }
+    fn unclear(&self, reason: String) -> StudyError {
+        SignalError::File { file: self.file.to_owned(), reason }.into()
     }
 
     /// The columns, with the units of a table, for messages.
@@ -200,11 +197,11 @@ impl Source<'_, '_> {
     }
 
     /// The channels that are wanted, or all accelerations and forces, with what stands beside them.
-    fn record(&self, wanted: &SignalArguments, mut notes: Vec<String>) -> Result<Record, CliError> {
+    fn record(&self, wanted: &SignalRequest, mut notes: Vec<String>) -> Result<Record, StudyError> {
         let chosen = if wanted.channel.is_empty() {
             self.measured()?
         } else {
-            wanted.channel.iter().map(|own| self.wanted(own)).collect::<Result<_, _>>()?
+            wanted.channel.iter().map(|own| self.wanted(&own.0)).collect::<Result<_, _>>()?
         };
         let mut channels = Vec::new();
         for (at, name) in &chosen {
@@ -235,7 +232,7 @@ impl Source<'_, '_> {
     }
 
     /// What there is of accelerations and forces, or else of other things.
-    fn measured(&self) -> Result<Vec<Chosen>, CliError> {
+    fn measured(&self) -> Result<Vec<Chosen>, StudyError> {
         let [measured, others] = [of(&self.columns, &MEASURED), of(&self.columns, &OTHERS)];
         match self.samples {
             _ if !measured.is_empty() => Ok(measured),
@@ -250,7 +247,7 @@ impl Source<'_, '_> {
     }
 
     /// A column by its name, code or number, and the name that it is given behind `=`.
-    fn wanted(&self, text: &str) -> Result<Chosen, CliError> {
+    fn wanted(&self, text: &str) -> Result<Chosen, StudyError> {
         let (name, given) = match text.rsplit_once('=') {
             Some((name, given)) if self.find(text).is_err() => (name.trim(), Some(given.trim())),
             _ => (text.trim(), None),
@@ -269,7 +266,7 @@ impl Source<'_, '_> {
         Err(self.unclear(reason))
     }
 
-    fn find(&self, name: &str) -> Result<usize, CliError> {
+    fn find(&self, name: &str) -> Result<usize, StudyError> {
         let is_it = |own: &Column| {
             own.name == name || own.code.as_ref().is_some_and(|code| code.text() == name)
         };
@@ -287,7 +284,7 @@ impl Source<'_, '_> {
         }
     }
 
-    fn channel(&self, at: usize, name: &str) -> Result<Channel, CliError> {
+    fn channel(&self, at: usize, name: &str) -> Result<Channel, StudyError> {
         let (table, time, step) = match &self.samples {
             Samples::Table { table, time, step } => (table, *time, *step),
             Samples::Test(all) => return Ok(all[at].channel.clone().named(name)),
@@ -297,7 +294,7 @@ impl Source<'_, '_> {
             let values = table.column(at, dimension).map_err(|own| in_table(self.file, own))?;
             let given = self.columns[at].unit.as_ref().filter(|_| table.heading(at).unit.is_none());
             let factor = given.and_then(|unit| one(unit, dimension)).unwrap_or(1.0);
-            Ok::<_, CliError>(values.into_iter().map(|own| own * factor).collect::<Vec<_>>())
+            Ok::<_, StudyError>(values.into_iter().map(|own| own * factor).collect::<Vec<_>>())
         };
         let (of_time, values) =
             (time.map(|at| values(at, Dimension::TIME)), values(at, dimension)?);
@@ -306,7 +303,7 @@ impl Source<'_, '_> {
         Channel::new(name, dimension, times, values).map_err(|fault| {
             let line = fault.sample().and_then(|at| table.lines().get(at).copied());
             let (file, channel, fault) = (self.file.to_owned(), name.to_owned(), Box::new(fault));
-            CliError::SignalSamples { file, line, channel, fault }
+            SignalError::Samples { file, line, channel, fault }.into()
         })
     }
 }
