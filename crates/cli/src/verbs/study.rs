@@ -149,7 +149,7 @@ impl FromArgMatches for StudyArguments {
             Operands::Models(operands) => operands.iter().map(|operand| operand.0).collect(),
         };
         let operands =
-            operands.into_iter().flat_map(|name| matches.get_many::<OsString>(name)).flatten();
+            operands.into_iter().filter_map(|name| matches.get_many::<OsString>(name)).flatten();
         let is_given =
             |info: &&OptionInfo| matches.value_source(info.name) == Some(ValueSource::CommandLine);
         let mut given = Vec::new();
